@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+// Observations -> rig: one joint bundle adjustment over intrinsics, distortion, board poses, laser planes,
+// sensor-to-sensor transforms and motion.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "calib/observations.h"
+#include "core/fields.h"
+#include "core/rig.h"
+
+namespace lightstripe {
+
+struct CalibrationOptions {
+  double corner_sigma_px = 0.1;   ///< expected 1-sigma error of a corner, px
+  double robust_scale = 3.0;      ///< residuals beyond this many sigma lose weight (Huber)
+  int max_iterations = 100;
+};
+
+template <class V>
+void visit_fields(V&& v, CalibrationOptions& o) {
+  v("corner_sigma_px", o.corner_sigma_px, "expected error of a detected corner, px");
+  v("robust_scale", o.robust_scale, "residuals beyond this many sigma lose weight");
+  v("max_iterations", o.max_iterations);
+}
+
+/// Residuals of one view of one sensor.
+struct ViewResidual {
+  std::string sensor, image;
+  double board_rms_px = 0;
+  double stripe_rms_px = 0;  ///< 0 where the view shows no stripe
+  int corners = 0, stripe_points = 0;
+};
+
+/// Whether and how well it went; starts as "not run".
+struct CalibrationSummary {
+  bool usable = false;
+  std::string message = "not run";  ///< the reason where it is not usable: what is wrong, what to do
+  int iterations = 0;
+  std::vector<ViewResidual> views;
+};
+
+struct CalibrationResult {
+  Rig rig;
+  CalibrationSummary summary;
+};
+
+CalibrationResult calibrate_rig(const CalibrationObservations& observations, const CalibrationOptions& options = {});
+
+}  // namespace lightstripe

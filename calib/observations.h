@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+// What the calibration sees: corners and stripe points of boards, sensor by sensor. No files, no images.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/board.h"
+#include "core/rig.h"
+#include "core/stripe.h"
+
+namespace lightstripe {
+
+/// One board pose seen by one sensor. The same `pose` text in two sensors = the same pose of the board.
+struct BoardView {
+  std::string image;                      ///< for messages
+  std::string pose;
+  std::vector<Eigen::Vector2d> corners;   ///< px, in the order of Target::corner
+  std::vector<std::vector<StripePoint>> stripes;  ///< for each laser plane the points on the board (may be empty)
+};
+
+struct SensorObservations {
+  std::string name;
+  int width = 0, height = 0;  ///< px
+  int laser_planes = 1;
+  std::vector<BoardView> views;
+};
+
+/// A fixed board seen from known positions of travel.
+struct MotionObservations {
+  MotionType type = MotionType::kLinear;
+  int sensor = 0;
+  bool rig_moves = true;
+  std::vector<BoardView> views;
+  std::vector<double> travel;  ///< for each view, mm or degrees
+};
+
+struct CalibrationObservations {
+  Target target;
+  std::vector<SensorObservations> sensors;
+  std::optional<MotionObservations> motion;
+  Eigen::Vector3d up{0, -1, 0};  ///< hint, first sensor's camera frame
+};
+
+}  // namespace lightstripe

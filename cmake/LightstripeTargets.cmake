@@ -1,0 +1,48 @@
+# SPDX-FileCopyrightText: 2026 The lightstripe authors
+# SPDX-License-Identifier: Apache-2.0
+
+# Warnings are errors in our own code; the headers of others are system headers.
+add_library(lightstripe_flags INTERFACE)
+target_compile_options(lightstripe_flags INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror)
+if(LIGHTSTRIPE_SANITIZE)
+  target_compile_options(lightstripe_flags INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=undefined
+                                                     -fno-omit-frame-pointer)
+  target_link_options(lightstripe_flags INTERFACE -fsanitize=address,undefined)
+endif()
+
+# lightstripe_library(<folder's name> DEPS <folders it may include> EXTERNAL <libraries of others>)
+# makes lightstripe::<name> of every .cpp file in the current folder.
+function(lightstripe_library name)
+  cmake_parse_arguments(ARG "" "" "DEPS;EXTERNAL" ${ARGN})
+  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
+  add_library(lightstripe_${name} STATIC ${sources})
+  add_library(lightstripe::${name} ALIAS lightstripe_${name})
+  set_target_properties(lightstripe_${name} PROPERTIES POSITION_INDEPENDENT_CODE ON EXPORT_NAME ${name})
+  target_include_directories(lightstripe_${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
+                                                        $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src>)
+  list(TRANSFORM ARG_DEPS PREPEND lightstripe::)
+  target_link_libraries(lightstripe_${name} PUBLIC ${ARG_DEPS} ${ARG_EXTERNAL} PRIVATE $<BUILD_INTERFACE:lightstripe_flags>)
+endfunction()
+
+# lightstripe_tests(<folder> DEPS <libraries>): every <x>_test.cpp of tests/<folder> becomes one executable
+# and one ctest of the name <folder>/<x>_test. Files <x>.scene_test.cpp, .data_test.cpp carry that label instead of unit.
+function(lightstripe_tests folder)
+  cmake_parse_arguments(ARG "" "" "DEPS" ${ARGN})
+  file(GLOB tests CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${folder}/*_test.cpp)
+  foreach(source ${tests})
+    get_filename_component(stem ${source} NAME)
+    string(REGEX REPLACE "\\.cpp$" "" stem ${stem})
+    string(REPLACE "." "_" target "${folder}_${stem}")
+    add_executable(${target} ${source})
+    set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
+    target_link_libraries(${target} PRIVATE ${ARG_DEPS} GTest::gmock GTest::gtest_main lightstripe_flags)
+    target_compile_definitions(${target} PRIVATE LIGHTSTRIPE_BINARY="${CMAKE_BINARY_DIR}/bin/lightstripe"
+                                                 LIGHTSTRIPE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+    add_test(NAME ${folder}/${stem} COMMAND ${target} WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
+    set(label unit)
+    if(stem MATCHES "\\.([a-z]+)_test$")
+      set(label ${CMAKE_MATCH_1})
+    endif()
+    set_tests_properties(${folder}/${stem} PROPERTIES LABELS ${label})
+  endforeach()
+endfunction()

@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+// image -> stripes: the one door to every extraction method.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/fields.h"
+#include "core/image.h"
+#include "core/stripe.h"
+
+namespace lightstripe {
+
+enum class ExtractionMethod { kDirectionGuided, kSteger, kZhouRoi, kCentroid };
+
+constexpr std::array<EnumName<ExtractionMethod>, 4> enum_names(ExtractionMethod) {
+  return {{{ExtractionMethod::kDirectionGuided, "direction-guided"},
+           {ExtractionMethod::kSteger, "steger"},
+           {ExtractionMethod::kZhouRoi, "zhou-roi"},
+           {ExtractionMethod::kCentroid, "centroid"}}};
+}
+
+struct ExtractionOptions {
+  ExtractionMethod method = ExtractionMethod::kDirectionGuided;
+  std::optional<double> stripe_width;  ///< px, full width 2w of the bright bar; sigma = w / sqrt(3)
+  std::optional<double> sigma;         ///< px; neither given: the width is estimated from the image
+  std::string thresholds = "auto";     ///< "auto" or "LOW,HIGH" in grey levels
+  std::optional<double> alpha;         ///< weight of T_min in T_l, [0, 1]; not given: from entropy and peaks
+  double beta = 0;                     ///< weight of T_max in T_h, [0, 1]
+};
+
+template <class V>
+void visit_fields(V&& v, ExtractionOptions& o) {
+  v("method", o.method, "direction-guided | steger | zhou-roi | centroid");
+  v("stripe_width", o.stripe_width, "full width of the bright bar, px; default: estimated from the image");
+  v("sigma", o.sigma, "scale of the Gaussian kernels, px; default: stripe_width / (2 sqrt 3)");
+  v("thresholds", o.thresholds, "auto, or LOW,HIGH in grey levels");
+  v("alpha", o.alpha, "weight of the background's grey level in the low threshold; default: automatic");
+  v("beta", o.beta, "weight of the brightest grey level in the high threshold");
+}
+
+/// Buffers that a caller keeps between frames of a sequence (one a thread), so that nothing is allocated a frame.
+struct ExtractionWorkspace;
+
+struct ExtractionResult {
+  std::vector<Stripe> stripes;
+  double sigma = 0;           ///< the scale used, px
+  double threshold_low = 0;   ///< grey levels
+  double threshold_high = 0;
+  double noise = 0;           ///< standard deviation of the image noise, grey levels, measured in the image
+};
+
+/// An empty or dark image gives no stripes. Options out of their range: Error naming the option.
+ExtractionResult extract_stripes(ImageView8 image, const ExtractionOptions& options = {});
+
+}  // namespace lightstripe

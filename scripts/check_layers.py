@@ -1,0 +1,76 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 The lightstripe authors
+# SPDX-License-Identifier: Apache-2.0
+"""Checks who includes whom: the table of docs/architecture.md, and heavy libraries at their edge.
+
+usage: check_layers.py ROOT; prints file:line for every forbidden include, exit code 1 if there is one.
+"""
+import pathlib
+import re
+import sys
+
+# folder -> our own folders that it may include (besides itself)
+MAY_INCLUDE = {
+    "core": set(),
+    "io": {"core"},
+    "extraction": {"core"},
+    "calib": {"extraction", "core"},
+    "reconstruct": {"extraction", "core"},
+    "measure": {"core"},
+    "simulate": {"core", "io"},
+    "apps": {"core", "io", "extraction", "calib", "reconstruct", "measure", "simulate"},
+}
+# library's include prefix -> folders where it may appear
+LIBRARY_IN = {
+    r"ceres/": {"calib"},
+    r"pcl/": {"reconstruct"},
+    r"yaml-cpp/": {"io"},
+    r"opencv2/(imgcodecs|videoio|highgui)": {"io"},
+    r"opencv2/calib3d|opencv2/aruco|opencv2/objdetect": {"calib"},
+    r"opencv2/": {"io", "calib", "extraction", "simulate", "apps"},
+    r"CLI/": {"apps"},
+    r"spdlog/": {"apps"},
+    r"fmt/": {"io", "calib", "reconstruct", "simulate", "measure", "apps"},
+    r"tbb/|oneapi/tbb": {"calib", "reconstruct", "simulate", "apps"},
+    r"hwy/": {"extraction"},
+}
+# the direction-guided core needs the standard library and Highway only
+NO_OPENCV_FILES = re.compile(r"extraction/(direction_guided|kernels|thresholds|line_point|point_)")
+INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
+
+
+def folder_of(path):
+    return path.parts[1] if path.parts[0] == "src" else path.parts[0]
+
+
+def complaints(root):
+    for path in sorted(root.rglob("*")):
+        relative = path.relative_to(root)
+        if path.suffix not in {".h", ".cpp"} or len(relative.parts) < 2 or folder_of(relative) not in MAY_INCLUDE:
+            continue
+        folder = folder_of(relative)
+        for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
+            match = INCLUDE.match(line)
+            if not match:
+                continue
+            name = match.group(2)
+            target = name.split("/")[0]
+            if target in MAY_INCLUDE and target != folder and target not in MAY_INCLUDE[folder]:
+                yield f"{relative}:{number}: {folder} may not include {target}"
+            for prefix, folders in LIBRARY_IN.items():
+                if re.match(prefix, name):
+                    if folder not in folders:
+                        yield f"{relative}:{number}: {folder} may not use {name}"
+                    break
+            if name.startswith("opencv2/") and NO_OPENCV_FILES.match(str(relative)):
+                yield f"{relative}:{number}: the direction-guided core may not use {name}"
+
+
+def main():
+    found = list(complaints(pathlib.Path(sys.argv[1])))
+    print("\n".join(found) if found else "layers: clean")
+    return 1 if found else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

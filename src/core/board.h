@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+// The calibration target: a flat board with a checkerboard.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace lightstripe {
+
+enum class TargetType { kCheckerboard, kCharuco };
+
+/// Board frame: origin at the first inner corner, x along a row of corners, y to the next row, z = x cross y
+/// (into the board for a viewer in front of it); mm.
+struct Target {
+  TargetType type = TargetType::kCheckerboard;
+  int columns = 0;       ///< inner corners along x
+  int rows = 0;          ///< inner corners along y
+  double pitch_x = 0;    ///< mm
+  double pitch_y = 0;    ///< mm
+
+  int num_corners() const { return columns * rows; }
+  Eigen::Vector2d corner(int index) const { return {(index % columns) * pitch_x, (index / columns) * pitch_y}; }
+  /// Half a turn maps the board onto itself, colours included: its orientation cannot be told from one image.
+  bool half_turn_symmetric() const { return (columns + rows) % 2 == 0; }
+};
+
+}  // namespace lightstripe

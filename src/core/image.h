@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+// Grey-value images: a view for every function that looks, an owner for those that keep.
+// Pixel (0, 0) is the centre of the top-left pixel; rows run along x.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace lightstripe {
+
+/// Pixels of somebody else (a cv::Mat, a line-scan camera's buffer, an array). `stride` counts elements, not bytes.
+template <class T>
+struct ImageView {
+  const T* data = nullptr;
+  int width = 0;
+  int height = 0;
+  std::ptrdiff_t stride = 0;
+
+  const T* row(int y) const { return data + y * stride; }
+  T operator()(int x, int y) const { return row(y)[x]; }
+  bool empty() const { return width <= 0 || height <= 0; }
+  bool contains(int x, int y) const { return x >= 0 && y >= 0 && x < width && y < height; }
+  /// The part of `w` x `h` pixels that begins at (x, y), which has to lie inside.
+  ImageView crop(int x, int y, int w, int h) const { return {row(y) + x, w, h, stride}; }
+};
+
+/// Pixels owned, without padding between the rows.
+template <class T>
+struct Image {
+  std::vector<T> pixels;
+  int width = 0;
+  int height = 0;
+
+  Image() = default;
+  Image(int w, int h, T value = T{})
+      : pixels(static_cast<std::size_t>(w) * static_cast<std::size_t>(h), value), width(w), height(h) {}
+
+  ImageView<T> view() const { return {pixels.data(), width, height, width}; }
+  operator ImageView<T>() const { return view(); }  // NOLINT(google-explicit-constructor): an owner is a view
+  T* row(int y) { return pixels.data() + static_cast<std::ptrdiff_t>(y) * width; }
+  const T* row(int y) const { return pixels.data() + static_cast<std::ptrdiff_t>(y) * width; }
+  T& operator()(int x, int y) { return row(y)[x]; }
+  T operator()(int x, int y) const { return row(y)[x]; }
+  bool empty() const { return pixels.empty(); }
+};
+
+using ImageView8 = ImageView<std::uint8_t>;
+using ImageView16 = ImageView<std::uint16_t>;
+using Image8 = Image<std::uint8_t>;
+using Image16 = Image<std::uint16_t>;
+
+}  // namespace lightstripe

@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+// The calibrated rig: cameras, laser planes, how they stand to each other and how they move.
+// calib makes it, rig.yaml keeps it, reconstruct takes it.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/camera.h"
+#include "core/plane.h"
+#include "core/transform.h"
+
+namespace lightstripe {
+
+/// One camera with the laser planes that it sees.
+struct Sensor {
+  std::string name;
+  Camera camera;
+  std::vector<Plane> laser_planes;  ///< camera frame, n.X = d with d > 0
+  Rigid3 rig_from_camera;
+};
+
+enum class MotionType { kNone, kLinear, kRotary };
+
+/// How rig and object move against each other, in the rig frame.
+struct Motion {
+  MotionType type = MotionType::kNone;
+  bool rig_moves = true;                                      ///< false: the object moves, p = p_seen - s * x
+  Eigen::Vector3d direction = Eigen::Vector3d::UnitX();       ///< linear
+  Eigen::Vector3d axis_point = Eigen::Vector3d::Zero();       ///< rotary, mm
+  Eigen::Vector3d axis_direction = Eigen::Vector3d::UnitY();  ///< rotary, unit
+};
+
+struct SensorQuality {
+  std::string name;
+  double board_rms_px = 0;
+  double stripe_rms_px = 0;
+  int board_views = 0;
+  int stripe_views = 0;
+};
+
+/// How far the rig can be trusted; empty where it is not known (a rig written by hand).
+struct RigQuality {
+  std::vector<SensorQuality> sensors;
+  std::map<std::string, double> sigma;      ///< 1-sigma of every parameter by name, e.g. "gauge.camera.fx"
+  double section_shape_sigma_mm = 0;        ///< predicted, rms over the measuring area, after a rigid move; 0 = unknown
+  double section_absolute_sigma_mm = 0;     ///< predicted, rms over the measuring area; 0 = unknown
+  std::vector<std::string> warnings;
+};
+
+struct Rig {
+  std::vector<Sensor> sensors;
+  Motion motion;
+  RigQuality quality;
+};
+
+/// The rotation rig_from_camera whose x is `x_cam` (travel) and whose z is the `up_cam` hint made orthogonal to it;
+/// y = z cross x. Both vectors in the first sensor's camera frame; they must not be parallel.
+Eigen::Quaterniond rig_rotation(const Eigen::Vector3d& x_cam, const Eigen::Vector3d& up_cam);
+
+}  // namespace lightstripe

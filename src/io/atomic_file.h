@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+// Results are written aside and renamed: an interrupted run never leaves half a file under the final name.
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+namespace lightstripe {
+
+/// A file that appears under its name only by commit(); dropped without it, nothing is left behind.
+/// Errors (no such folder, no permission, disk full) are Error with the final path.
+class AtomicFile {
+ public:
+  explicit AtomicFile(const std::filesystem::path& path);  ///< makes missing folders
+  ~AtomicFile();
+  AtomicFile(const AtomicFile&) = delete;
+  AtomicFile& operator=(const AtomicFile&) = delete;
+
+  /// Where to write before commit(): a name in the same folder that ends in the same extension.
+  const std::filesystem::path& temporary() const { return temporary_; }
+  void commit();
+
+ private:
+  std::filesystem::path path_, temporary_;
+  bool committed_ = false;
+};
+
+/// The whole text at once.
+void write_file(const std::filesystem::path& path, std::string_view text);
+
+/// The whole file; an Error if it cannot be read or is larger than `limit` bytes.
+std::string read_file(const std::filesystem::path& path, std::size_t limit = std::size_t{1} << 30);
+
+}  // namespace lightstripe

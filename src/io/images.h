@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+// Images in and out: folders with a pattern, natural order, colour to grey by channel, guarded decoding.
+// OpenCV's codecs stay inside this folder.
+#pragma once
+
+#include <cstdint>
+#include <array>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/fields.h"
+#include "core/image.h"
+
+namespace lightstripe {
+
+/// Which grey value a colour pixel gives. Excess = channel minus the larger of the other two, 0 if negative.
+/// Auto: grey images as they are; colour images by the excess channel with the strongest bright peaks (the laser's colour).
+enum class Channel { kAuto, kGray, kRed, kGreen, kBlue, kRedExcess, kGreenExcess, kBlueExcess };
+
+constexpr std::array<EnumName<Channel>, 8> enum_names(Channel) {
+  return {{{Channel::kAuto, "auto"},
+           {Channel::kGray, "gray"},
+           {Channel::kRed, "red"},
+           {Channel::kGreen, "green"},
+           {Channel::kBlue, "blue"},
+           {Channel::kRedExcess, "red-excess"},
+           {Channel::kGreenExcess, "green-excess"},
+           {Channel::kBlueExcess, "blue-excess"}}};
+}
+
+/// Decodes a picture. An Error for a file that is missing, empty, truncated, no image, or larger than 2^28 pixels
+/// (looked up in the header before anything is allocated). 16-bit pictures are scaled to 8 bits.
+Image8 read_image(const std::filesystem::path& path, Channel channel = Channel::kAuto);
+
+/// As read_image; with kAuto also tells which channel it took, so that a sequence can stay with it.
+Image8 read_image(const std::filesystem::path& path, Channel channel, Channel* chosen);
+
+/// PNG (or by extension), through AtomicFile.
+void write_image(const std::filesystem::path& path, ImageView8 image);
+
+/// An interleaved 8-bit RGB picture of width * height * 3 bytes.
+void write_rgb_image(const std::filesystem::path& path, const std::vector<std::uint8_t>& rgb, int width, int height);
+
+/// Files that match `pattern` (one folder, '*' and '?' in the file name; or one file) in natural order
+/// (img_2 before img_10), relative to `base` unless absolute. An Error when there is none.
+std::vector<std::filesystem::path> list_files(const std::filesystem::path& base, const std::string& pattern);
+
+/// The text that the pattern's '*' stands for in this file: pairs images of one board pose ("007").
+std::string matched_text(const std::string& pattern, const std::filesystem::path& file);
+
+/// "img_2" < "img_10": runs of digits compare as numbers.
+bool natural_less(const std::string& a, const std::string& b);
+
+/// A recorded sequence: image folder or video file. read() may be called from several threads.
+class FrameSource {
+ public:
+  virtual ~FrameSource() = default;
+  virtual std::int64_t size() const = 0;
+  /// File name (or "video.mp4#12") for messages and tables.
+  virtual std::string name(std::int64_t index) const = 0;
+  virtual Image8 read(std::int64_t index) const = 0;
+};
+
+/// Opens what a scan's `frames:` names. With Channel::kAuto the first frame decides for all.
+std::unique_ptr<FrameSource> open_frames(const std::filesystem::path& base, const std::string& pattern, Channel channel);
+
+}  // namespace lightstripe

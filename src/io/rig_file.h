@@ -1,0 +1,20 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+// rig.yaml: the calibrated rig on disk (docs/contract.md, "rig.yaml").
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "core/rig.h"
+
+namespace lightstripe {
+
+/// Reads and checks: format tag, finite numbers, focal lengths > 0, unit normals and quaternions (to 1e-6, then made exact),
+/// distortion with 4, 5, 8, 12 or 14 terms that is invertible over the image. An Error names file and key.
+Rig read_rig(const std::filesystem::path& path);
+
+/// The text of rig.yaml; numbers with 17 significant digits, so that reading it back gives the same bits.
+std::string rig_to_yaml(const Rig& rig);
+
+}  // namespace lightstripe
