@@ -1,3 +1,57 @@
 // SPDX-FileCopyrightText: 2026 The lightstripe authors
 // SPDX-License-Identifier: Apache-2.0
-int main() { return 2; }
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+
+#include "apps/command.h"
+#include "core/error.h"
+
+namespace {
+
+constexpr const char* kFirstSteps =
+    "First steps:\n"
+    "  lightstripe demo -o demo-output            the whole chain on a built-in synthetic rig\n"
+    "  lightstripe calibrate session.yaml -o rig.yaml\n"
+    "  lightstripe reconstruct scan.yaml -o cloud.ply\n"
+    "`lightstripe COMMAND --help` tells the options of a command.";
+
+int run(int argc, char** argv) {
+  CLI::App app{"lightstripe: calibrate laser-stripe rigs, reconstruct profiles, write point clouds", "lightstripe"};
+  app.set_version_flag("--version", LIGHTSTRIPE_VERSION);
+  app.require_subcommand(1);
+  app.footer(kFirstSteps);
+  lightstripe::Command command;
+  lightstripe::add_demo_command(app, command);
+  lightstripe::add_extract_command(app, command);
+  lightstripe::add_calibrate_command(app, command);
+  lightstripe::add_reconstruct_command(app, command);
+  lightstripe::add_simulate_command(app, command);
+  if (argc < 2) {
+    fmt::print(stderr, "{}", app.help());
+    return lightstripe::kExitUsage;
+  }
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? lightstripe::kExitDone : lightstripe::kExitUsage;
+  }
+  return command();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const lightstripe::Error& error) {
+    fmt::print(stderr, "error: {}\n", error.what());
+  } catch (const std::bad_alloc&) {
+    fmt::print(stderr, "error: memory: not enough of it; use fewer --threads or smaller images\n");
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "error: lightstripe: {}; this is a fault of the program, please report it\n", error.what());
+  }
+  return lightstripe::kExitInputWrong;
+}

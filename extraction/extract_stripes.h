@@ -11,6 +11,8 @@
 #include "core/fields.h"
 #include "core/image.h"
 #include "core/stripe.h"
+#include "extraction/line_tests.h"
+#include "extraction/thresholds.h"
 
 namespace lightstripe {
 
@@ -30,6 +32,8 @@ struct ExtractionOptions {
   std::string thresholds = "auto";     ///< "auto" or "LOW,HIGH" in grey levels
   std::optional<double> alpha;         ///< weight of T_min in T_l, [0, 1]; not given: from entropy and peaks
   double beta = 0;                     ///< weight of T_max in T_h, [0, 1]
+  int max_lines = 0;                   ///< only the longest lines; 0 = all
+  LineTestOptions lines;               ///< what a line has to be like
 };
 
 template <class V>
@@ -40,20 +44,32 @@ void visit_fields(V&& v, ExtractionOptions& o) {
   v("thresholds", o.thresholds, "auto, or LOW,HIGH in grey levels");
   v("alpha", o.alpha, "weight of the background's grey level in the low threshold; default: automatic");
   v("beta", o.beta, "weight of the brightest grey level in the high threshold");
+  v("max_lines", o.max_lines, "only the longest lines; 0 = all");
+  v("lines", o.lines);
 }
 
-/// Buffers that a caller keeps between frames of a sequence (one a thread), so that nothing is allocated a frame.
+/// Buffers that a caller keeps between frames of a sequence (one a thread), so that nothing is allocated a
+/// frame. Defined in extraction/workspace.h.
 struct ExtractionWorkspace;
 
+/// The stripes are ordered by falling length; each runs with growing x or y, whichever spans more.
 struct ExtractionResult {
   std::vector<Stripe> stripes;
-  double sigma = 0;           ///< the scale used, px
-  double threshold_low = 0;   ///< grey levels
+  double sigma = 0;          ///< the scale used, px
+  double threshold_low = 0;  ///< grey levels
   double threshold_high = 0;
-  double noise = 0;           ///< standard deviation of the image noise, grey levels, measured in the image
+  double noise = 0;          ///< standard deviation of the image noise, grey levels, measured in the image
+  BilevelThresholds levels;  ///< how the thresholds came about (not computed where they were given)
 };
 
 /// An empty or dark image gives no stripes. Options out of their range: Error naming the option.
 ExtractionResult extract_stripes(ImageView8 image, const ExtractionOptions& options = {});
+ExtractionResult extract_stripes(ImageView16 image, const ExtractionOptions& options = {});
+
+/// The same into memory that is kept: workspace and result may come from any earlier call.
+void extract_stripes(ImageView8 image, const ExtractionOptions& options, ExtractionWorkspace& workspace,
+                     ExtractionResult& result);
+void extract_stripes(ImageView16 image, const ExtractionOptions& options, ExtractionWorkspace& workspace,
+                     ExtractionResult& result);
 
 }  // namespace lightstripe

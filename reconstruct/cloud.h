@@ -1,21 +1,34 @@
 // SPDX-FileCopyrightText: 2026 The lightstripe authors
 // SPDX-License-Identifier: Apache-2.0
-// profiles -> point cloud on disk: .ply, .pcd (binary) or .xyz (text), with the contract's fields. PCL stays in cloud.cpp.
+// profiles -> point cloud on disk: .ply, .pcd (binary) or .xyz (text), with the contract's fields, and back.
+// PCL stays in the .cpp files.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "core/profile.h"
 
 namespace lightstripe {
 
+/// One point of a cloud file, in the order of the contract's properties.
+struct CloudPoint {
+  float x = 0, y = 0, z = 0;  ///< mm
+  float intensity = 0;        ///< grey levels
+  std::int32_t frame = 0, sensor = 0, line = 0;
+  float sigma = 0;  ///< mm
+};
+
 /// Writes a cloud as it grows, in memory that does not grow with it. The caller gives a temporary path
 /// (see AtomicFile) whose extension says the format; the file is complete after finish().
 class CloudWriter {
  public:
-  explicit CloudWriter(const std::filesystem::path& path);  ///< Error for an unknown extension or an unwritable path
+  /// `name`: what messages call the file, the path itself if empty. Error for an unknown extension or an
+  /// unwritable path.
+  explicit CloudWriter(const std::filesystem::path& path, const std::string& name = {});
   ~CloudWriter();
   CloudWriter(const CloudWriter&) = delete;
   CloudWriter& operator=(const CloudWriter&) = delete;
@@ -28,5 +41,9 @@ class CloudWriter {
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
+
+/// Reads a .ply or .pcd cloud that CloudWriter wrote. An Error where the header is not of that layout or
+/// counts other points than the file holds; looked up before anything is allocated.
+std::vector<CloudPoint> read_cloud(const std::filesystem::path& path);
 
 }  // namespace lightstripe

@@ -1,3 +1,123 @@
 // SPDX-FileCopyrightText: 2026 The lightstripe authors
 // SPDX-License-Identifier: Apache-2.0
 #include "reconstruct/triangulate.h"
+
+#include <Eigen/LU>
+#include <cmath>
+#include <numbers>
+
+#include "core/error.h"
+#include "reconstruct/laser_lines.h"
+
+namespace lightstripe {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+struct PlanePoint {
+  Vector3d p_cam;        ///< mm
+  double mm_per_px = 0;  ///< square to the section, per px across the stripe
+};
+
+/// How far the point on the laser plane moves square to the section when the stripe point moves by 1 px
+/// across the stripe. With the ray r = (x, y, 1) and P = s r on n.P = d: dP = s (dr - r (n.dr) / (n.r)), and
+/// s = P.z.
+double section_mm_per_px(const Camera& camera, const Plane& plane, const Vector3d& ray, double depth_mm,
+                         const Vector2d& normal_px) {
+  const Eigen::Matrix2d normalised_per_px = projection_jacobian(camera, ray.head<2>()).inverse();
+  const auto moved = [&](const Vector2d& pixels) {
+    const Vector2d dxy = normalised_per_px * pixels;
+    const Vector3d dr(dxy.x(), dxy.y(), 0);
+    return Vector3d(depth_mm * (dr - ray * (plane.normal.dot(dr) / plane.normal.dot(ray))));
+  };
+  const Vector3d across = moved(normal_px), along = moved({-normal_px.y(), normal_px.x()});
+  return across.cross(along).norm() / along.norm();
+}
+
+std::optional<PlanePoint> meet_plane(const Camera& camera, const Plane& plane, const StripePoint& point) {
+  const auto ray = unproject(camera, {point.x, point.y});
+  if (!ray) return std::nullopt;
+  const auto p_cam = intersect(plane, Vector3d::Zero(), *ray);
+  if (!p_cam) return std::nullopt;
+  return PlanePoint{*p_cam,
+                    section_mm_per_px(camera, plane, *ray, p_cam->z(), {point.normal_x, point.normal_y})};
+}
+
+/// Section coordinates of a point given in the rig frame and in the result's.
+Vector2d section_coordinates(const Motion& motion, const FramePosition& position, const Vector3d& p_rig,
+                             const Vector3d& p_result) {
+  if (position.world_from_rig) return p_rig.tail<2>();
+  if (motion.type != MotionType::kRotary) return p_result.tail<2>();
+  const Vector3d from_axis = p_rig - motion.axis_point;  // the turn about the axis changes neither u nor v
+  const double u = from_axis.dot(motion.axis_direction);
+  return {u, (from_axis - u * motion.axis_direction).norm()};
+}
+
+/// What is the same for all points of one sensor in one frame.
+struct FrameGeometry {
+  const Rig& rig;
+  const FramePosition& position;
+  const Sensor& sensor;
+  Matrix3d R_rig_from_camera;
+  Rigid3 result_from_rig;
+};
+
+ProfilePoint profile_point(const FrameGeometry& geometry, const PlanePoint& met, const StripePoint& seen) {
+  const Vector3d p_rig = geometry.R_rig_from_camera * met.p_cam + geometry.sensor.rig_from_camera.translation;
+  ProfilePoint out;
+  out.position = geometry.result_from_rig * p_rig;
+  const Vector2d uv = section_coordinates(geometry.rig.motion, geometry.position, p_rig, out.position);
+  out.u = uv.x();
+  out.v = uv.y();
+  out.sigma_mm = std::hypot(met.mm_per_px * seen.sigma_px, geometry.rig.quality.section_shape_sigma_mm);
+  out.intensity = seen.intensity;
+  return out;
+}
+
+}  // namespace
+
+Rigid3 result_from_rig(const Motion& motion, const FramePosition& position) {
+  if (position.world_from_rig) return *position.world_from_rig;
+  const double sign = motion.rig_moves ? 1.0 : -1.0;
+  Rigid3 out;
+  if (motion.type == MotionType::kRotary) {
+    const double angle = sign * position.travel * std::numbers::pi / 180.0;
+    out.rotation = Eigen::AngleAxisd(angle, motion.axis_direction);
+    out.translation = motion.axis_point - out.rotation * motion.axis_point;
+  } else {
+    out.translation = sign * position.travel * motion.direction;
+  }
+  return out;
+}
+
+void triangulate_stripes(const std::vector<Stripe>& stripes, const Rig& rig, int sensor,
+                         const FramePosition& position, Profile& profile) {
+  LIGHTSTRIPE_CHECK(sensor >= 0 && sensor < static_cast<int>(rig.sensors.size()),
+                    "no such sensor in the rig");
+  const Sensor& of = rig.sensors[static_cast<std::size_t>(sensor)];
+  const FrameGeometry geometry{rig, position, of, of.rig_from_camera.rotation.toRotationMatrix(),
+                               result_from_rig(rig.motion, position)};
+  const auto plane_of_line = assign_laser_planes(stripes, of);
+  for (std::size_t line = 0; line < stripes.size(); ++line) {
+    const auto& points = stripes[line].points;
+    if (!plane_of_line) {
+      profile.num_missed += static_cast<int>(points.size());
+      continue;
+    }
+    const Plane& plane = of.laser_planes[static_cast<std::size_t>((*plane_of_line)[line])];
+    for (const StripePoint& seen : points) {
+      const auto met = meet_plane(of.camera, plane, seen);
+      if (!met) {
+        ++profile.num_missed;
+        continue;
+      }
+      ProfilePoint& point = profile.points.emplace_back(profile_point(geometry, *met, seen));
+      point.sensor = sensor;
+      point.line = static_cast<int>(line);
+    }
+  }
+}
+
+}  // namespace lightstripe

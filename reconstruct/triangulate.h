@@ -18,9 +18,24 @@ struct FramePosition {
   std::optional<Rigid3> world_from_rig;  ///< where poses are known: the points lie in that world
 };
 
-/// Appends the points of one sensor's stripes to the profile. Rays that cannot be undistorted or miss the plane are
-/// counted in Profile::num_missed.
-void triangulate_stripes(const std::vector<Stripe>& stripes, const Rig& rig, int sensor, const FramePosition& position,
-                         Profile& profile);
+/// From the rig frame at the moment of the picture to the frame of the result (the rig frame at travel 0, or
+/// the poses' world), s = travel, x = motion.direction (the rig's x):
+///   linear, rig moves: p + s x           linear, object moves: p - s x
+///   rotary, rig moves: turned by +s      rotary, object moves: turned back by s, about axis_direction (right
+///   hand)
+/// The sign of a rotary travel is thus that of what moves: the object (or the rig) has turned by +s since
+/// travel 0. A rig without a calibrated motion travels along its x.
+Rigid3 result_from_rig(const Motion& motion, const FramePosition& position);
+
+/// Appends the points of one sensor's stripes to the profile. Stripe points whose ray cannot be undistorted
+/// or misses the plane, and those of a line without a laser plane (assign_laser_planes), are counted in
+/// Profile::num_missed.
+///
+/// u, v: y, z of the result (linear); y, z of the rig frame (poses); position along the axis and radius
+/// (rotary). sigma_mm: the stripe's sigma_px carried through lens and plane, its part square to the section
+/// (an error along the section moves a point onto its neighbour and is none), in quadrature with
+/// quality.section_shape_sigma_mm.
+void triangulate_stripes(const std::vector<Stripe>& stripes, const Rig& rig, int sensor,
+                         const FramePosition& position, Profile& profile);
 
 }  // namespace lightstripe

@@ -1,3 +1,115 @@
 // SPDX-FileCopyrightText: 2026 The lightstripe authors
 // SPDX-License-Identifier: Apache-2.0
 #include "simulate/simulate.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <mutex>
+
+#include "io/images.h"
+#include "io/rig_file.h"
+#include "simulate/image_plan.h"
+#include "simulate/render.h"
+#include "simulate/session_output.h"
+#include "simulate/stripe_truth.h"
+#include "simulate/truth_files.h"
+
+namespace lightstripe {
+namespace {
+
+constexpr std::uint64_t kBlobStream = 0x626c6f62;  // apart from the same image's noise
+
+/// A name as a number (FNV-1a), so that a picture's noise depends on what it is called, not on how many came
+/// before.
+std::uint64_t stream_of(const std::string& name) {
+  std::uint64_t hash = 0xcbf29ce484222325ULL;
+  for (const char c : name) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3ULL;
+  return hash;
+}
+
+/// Calls `work(i)` for each i < count on `threads` threads (0 = all).
+template <class Work>
+void in_parallel(int threads, std::size_t count, const Work& work) {
+  tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
+  arena.execute([&] {
+    tbb::parallel_for(
+        tbb::blocked_range<std::size_t>(0, count, 1),
+        [&](const tbb::blocked_range<std::size_t>& range) {
+          for (std::size_t i = range.begin(); i < range.end(); ++i) work(i);
+        },
+        tbb::simple_partitioner());
+  });
+}
+
+/// What all images need and none changes.
+struct Studio {
+  const Scene& scene;
+  const ImagePlan& plan;
+  std::vector<RayGrid> rays;  ///< one a sensor
+  std::vector<Image<float>>
+      stills;  ///< light of the scan's frames, one a sensor, where all frames are the same
+  Rigid3 rig_from_world;
+};
+
+Image<float> light_of(const Studio& studio, const PlannedImage& image) {
+  if (image.frame >= 0 && !studio.stills.empty()) return studio.stills[image.sensor];
+  return render(studio.plan.worlds[image.world], image.view, studio.rays[image.sensor], studio.scene.imaging);
+}
+
+/// Renders one image, writes it, and returns its rows of stripes.csv.
+std::string make_image(const Studio& studio, const PlannedImage& image, const std::filesystem::path& folder) {
+  const Scene& scene = studio.scene;
+  const auto seed = static_cast<std::uint64_t>(scene.seed);
+  const std::uint64_t stream = stream_of(image.file);
+  Image<float> light = light_of(studio, image);
+  std::vector<Blob> blobs;
+  if (image.frame >= 0)
+    blobs = draw_blobs(scene.reflections, light.width, light.height, Random(seed, stream ^ kBlobStream));
+  add_blobs(light, blobs, scene.reflections);
+  write_image(folder / image.file, expose(light, scene.imaging, seed, stream));
+  if (!image.view.laser_on) return "";
+  const auto points = trace_stripe(studio.plan.worlds[image.world], image.view, scene.imaging);
+  return stripe_rows(image.file, image.view.sensor->name, image.frame, points, studio.rig_from_world, blobs,
+                     scene.reflections);
+}
+
+Studio prepare(const Scene& scene, const ImagePlan& plan, const Rig& rig, int threads) {
+  Studio studio{
+      scene, plan, std::vector<RayGrid>(plan.sensors.size()), {}, rig_from_world(rig, plan.sensors)};
+  in_parallel(threads, plan.sensors.size(), [&](std::size_t i) {
+    studio.rays[i] = make_ray_grid(plan.sensors[i], blur_margin(scene.imaging) + 1);
+  });
+  if (scene.scan.frames == 0 || !plan.still_scan) return studio;
+  std::vector<Image<float>> stills(plan.sensors.size());
+  in_parallel(threads, plan.images.size(), [&](std::size_t i) {
+    const PlannedImage& image = plan.images[i];
+    if (image.frame == 0) stills[image.sensor] = light_of(studio, image);
+  });
+  studio.stills = std::move(stills);
+  return studio;
+}
+
+}  // namespace
+
+SimulationSummary simulate_scene(const Scene& scene, const std::filesystem::path& output_folder, int threads,
+                                 const SimulationProgress& progress) {
+  scene.check();
+  const ImagePlan plan = plan_images(scene);
+  const Rig rig = true_rig(scene, plan.sensors);
+  const Studio studio = prepare(scene, plan, rig, threads);
+  make_folders(plan, output_folder);
+  std::vector<std::string> stripes(plan.images.size());
+  std::mutex reporting;
+  int done = 0;
+  in_parallel(threads, plan.images.size(), [&](std::size_t i) {
+    stripes[i] = make_image(studio, plan.images[i], output_folder);
+    const std::lock_guard<std::mutex> lock(reporting);
+    if (progress) progress(++done, static_cast<int>(plan.images.size()));
+  });
+  write_truth(output_folder / "truth", scene, plan, rig, stripes);
+  return write_session(output_folder, scene, plan);
+}
+
+}  // namespace lightstripe

@@ -4,11 +4,18 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <vector>
+
+#include "core/fields.h"
 
 namespace lightstripe {
 
 enum class TargetType { kCheckerboard, kCharuco };
+
+constexpr std::array<EnumName<TargetType>, 2> enum_names(TargetType) {
+  return {{{TargetType::kCheckerboard, "checkerboard"}, {TargetType::kCharuco, "charuco"}}};
+}
 
 /// Board frame: origin at the first inner corner, x along a row of corners, y to the next row, z = x cross y
 /// (into the board for a viewer in front of it); mm.

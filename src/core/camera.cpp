@@ -2,60 +2,124 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/camera.h"
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 
 namespace lightstripe {
 namespace {
 
 using Eigen::Matrix2d;
+using Eigen::Matrix3d;
 using Eigen::Vector2d;
+using Eigen::Vector3d;
 
-constexpr double kStep = 1e-6;  // for central differences in normalised coordinates: error about 1e-11
+constexpr double kFold = 1e-3;  // determinant of the lens' Jacobian below which a point counts as on its fold
 
-Vector2d distort(const Camera& camera, const Vector2d& normalised) {
-  return lightstripe::distort<double>(camera.distortion.data(), normalised);
+/// Where a function leads, and its derivative there.
+struct Mapped {
+  Vector2d value;
+  Matrix2d J;
+};
+
+/// The lens without the sensor's tilt: distort() with tau = 0 and its analytic Jacobian, one pass for both
+/// because undistortion runs for every stripe point.
+Mapped lens(const std::array<double, kDistortionTerms>& k, const Vector2d& at) {
+  const double x = at.x(), y = at.y(), r2 = x * x + y * y, r4 = r2 * r2, r6 = r4 * r2;
+  const double inverse = 1 / (1 + k[5] * r2 + k[6] * r4 + k[7] * r6);
+  const double radial = (1 + k[0] * r2 + k[1] * r4 + k[4] * r6) * inverse;
+  // d(radial)/d(r^2), by the quotient rule
+  const double slope =
+      (k[0] + 2 * k[1] * r2 + 3 * k[4] * r4 - radial * (k[5] + 2 * k[6] * r2 + 3 * k[7] * r4)) * inverse;
+  const double prism_x = 2 * (k[8] + 2 * k[9] * r2), prism_y = 2 * (k[10] + 2 * k[11] * r2);
+  const double mixed = 2 * x * y * slope + 2 * k[2] * x + 2 * k[3] * y;
+  Mapped out;
+  out.value = {x * radial + 2 * k[2] * x * y + k[3] * (r2 + 2 * x * x) + k[8] * r2 + k[9] * r4,
+               y * radial + k[2] * (r2 + 2 * y * y) + 2 * k[3] * x * y + k[10] * r2 + k[11] * r4};
+  out.J << radial + 2 * x * x * slope + 2 * k[2] * y + 6 * k[3] * x + prism_x * x, mixed + prism_x * y,
+      mixed + prism_y * x, radial + 2 * y * y * slope + 6 * k[2] * y + 2 * k[3] * x + prism_y * y;
+  return out;
+}
+
+/// The homography of the tilted sensor, as in distort().
+Matrix3d tilt_homography(const Camera& camera) {
+  const double cx = std::cos(camera.distortion[12]), sx = std::sin(camera.distortion[12]);
+  const double cy = std::cos(camera.distortion[13]), sy = std::sin(camera.distortion[13]);
+  Matrix3d R, to_sensor;
+  R << cy, sy * sx, -sy * cx, 0, cx, sx, sy, -cy * sx, cy * cx;
+  to_sensor << R(2, 2), 0, -R(0, 2), 0, R(2, 2), -R(1, 2), 0, 0, 1;
+  return to_sensor * R;
+}
+
+Mapped tilt(const Matrix3d& H, const Vector2d& at) {
+  const Vector3d p = H * at.homogeneous();
+  Mapped out;
+  out.value = p.hnormalized();
+  out.J = (H.topLeftCorner<2, 2>() - out.value * H.bottomLeftCorner<1, 2>()) / p.z();
+  return out;
 }
 
 Matrix2d distortion_jacobian(const Camera& camera, const Vector2d& at) {
-  Matrix2d J;
-  for (int i = 0; i < 2; ++i) {
-    const Vector2d step = kStep * Vector2d::Unit(i);
-    J.col(i) = (distort(camera, at + step) - distort(camera, at - step)) / (2 * kStep);
+  const Mapped distorted = lens(camera.distortion, at);
+  if (!camera.tilted()) return distorted.J;
+  return tilt(tilt_homography(camera), distorted.value).J * distorted.J;
+}
+
+/// The pixel in the lens' own image plane: focal lengths and tilt taken off. Nothing behind the tilted
+/// sensor.
+std::optional<Vector2d> distorted_point(const Camera& camera, const Vector2d& pixel) {
+  const Vector2d on_sensor{(pixel.x() - camera.cx) / camera.fx, (pixel.y() - camera.cy) / camera.fy};
+  if (!camera.tilted()) return on_sensor;
+  const Vector3d p = tilt_homography(camera).inverse() * on_sensor.homogeneous();
+  if (!(p.z() > 0)) return std::nullopt;
+  return Vector2d(p.hnormalized());
+}
+
+/// A strong distortion can fold back twice; an inverse found behind the folds is not where the light came
+/// from. Looks at the radial terms alone, n/d: the derivative of r n/d has the sign of d n + 2 r^2 (n' d - n
+/// d').
+bool reached_without_fold(const std::array<double, kDistortionTerms>& k, const Vector2d& at) {
+  for (double part : {0.25, 0.5, 0.75}) {
+    const double r2 = part * part * at.squaredNorm();
+    const double n = 1 + r2 * (k[0] + r2 * (k[1] + r2 * k[4])), d = 1 + r2 * (k[5] + r2 * (k[6] + r2 * k[7]));
+    const double dn = k[0] + r2 * (2 * k[1] + r2 * 3 * k[4]), dd = k[5] + r2 * (2 * k[6] + r2 * 3 * k[7]);
+    if (!(d > 0 && d * n + 2 * r2 * (dn * d - n * dd) > 0)) return false;
   }
-  return J;
+  return true;
 }
 
 }  // namespace
 
-std::optional<Vector2d> project(const Camera& camera, const Eigen::Vector3d& p_cam) {
+std::optional<Vector2d> project(const Camera& camera, const Vector3d& p_cam) {
   if (!(p_cam.z() > 0)) return std::nullopt;
   const double k[4] = {camera.fx, camera.fy, camera.cx, camera.cy};
   return project<double>(k, camera.distortion.data(), p_cam);
 }
 
-std::optional<Eigen::Vector3d> unproject(const Camera& camera, const Vector2d& pixel) {
-  constexpr int kMaxIterations = 20;
-  constexpr double kTolerance = 1e-12;
-  const Vector2d target{(pixel.x() - camera.cx) / camera.fx, (pixel.y() - camera.cy) / camera.fy};
-  Vector2d x = target;
-  Vector2d residual = distort(camera, x) - target;
-  for (int i = 0; i < kMaxIterations; ++i) {
-    if (residual.norm() < kTolerance) break;
-    const Matrix2d J = distortion_jacobian(camera, x);
-    if (!(J.determinant() > 1e-3)) return std::nullopt;  // at or beyond the fold
-    Vector2d step = J.inverse() * residual;
+std::optional<Vector3d> unproject(const Camera& camera, const Vector2d& pixel) {
+  constexpr int kMaxIterations = 20, kMaxHalvings = 10;
+  constexpr double kEnough = 1e-14, kAccepted = 1e-13;  // times a focal length of 5000 px: below 1e-9 px
+  const auto target = distorted_point(camera, pixel);
+  if (!target) return std::nullopt;
+  Vector2d x = *target;
+  Mapped image = lens(camera.distortion, x);
+  double residual = (image.value - *target).squaredNorm();
+  for (int i = 0; i < kMaxIterations && !(residual < kEnough * kEnough); ++i) {
+    if (!(image.J.determinant() > kFold)) return std::nullopt;
+    Vector2d step = image.J.inverse() * (image.value - *target);
+    const double before = residual;
     // Halve the step until the residual shrinks: strong distortion makes the full step overshoot.
-    for (int half = 0; half < 10; ++half, step *= 0.5) {
-      const Vector2d next = distort(camera, x - step) - target;
-      if (next.norm() < residual.norm() || half == 9) {
-        x -= step;
-        residual = next;
-        break;
-      }
+    for (int half = 0; half < kMaxHalvings; ++half, step *= 0.5) {
+      const Mapped next = lens(camera.distortion, x - step);
+      const double next_residual = (next.value - *target).squaredNorm();
+      if (!(next_residual < before)) continue;
+      x -= step, image = next, residual = next_residual;
+      break;
     }
+    if (!(residual < before)) break;  // at the floor of rounding, or stuck
   }
-  if (!(residual.norm() < 1e-9) || !(distortion_jacobian(camera, x).determinant() > 1e-3)) return std::nullopt;
-  return Eigen::Vector3d(x.x(), x.y(), 1.0);
+  if (!(residual < kAccepted * kAccepted) || !(image.J.determinant() > kFold)) return std::nullopt;
+  if (!reached_without_fold(camera.distortion, x)) return std::nullopt;
+  return Vector3d(x.x(), x.y(), 1.0);
 }
 
 Matrix2d projection_jacobian(const Camera& camera, const Vector2d& normalised) {
@@ -64,13 +128,15 @@ Matrix2d projection_jacobian(const Camera& camera, const Vector2d& normalised) {
 
 bool invertible_over_image(const Camera& camera) {
   constexpr int kSamples = 16;
+  constexpr double kMargin = 0.02;  // wider than kFold: parameters of a calibration are only known so well
   for (int i = 0; i <= kSamples; ++i) {
     for (int j = 0; j <= kSamples; ++j) {
-      const Vector2d pixel{-0.5 + camera.width * double(i) / kSamples, -0.5 + camera.height * double(j) / kSamples};
+      const Vector2d pixel{-0.5 + camera.width * double(i) / kSamples,
+                           -0.5 + camera.height * double(j) / kSamples};
       const auto ray = unproject(camera, pixel);
       if (!ray) return false;
       for (double part : {0.25, 0.5, 0.75, 1.0})
-        if (!(distortion_jacobian(camera, part * ray->head<2>()).determinant() > 0.02)) return false;
+        if (!(lens(camera.distortion, part * ray->head<2>()).J.determinant() > kMargin)) return false;
     }
   }
   return true;

@@ -4,11 +4,13 @@
 // calib makes it, rig.yaml keeps it, reconstruct takes it.
 #pragma once
 
+#include <array>
 #include <map>
 #include <string>
 #include <vector>
 
 #include "core/camera.h"
+#include "core/fields.h"
 #include "core/plane.h"
 #include "core/transform.h"
 
@@ -23,6 +25,11 @@ struct Sensor {
 };
 
 enum class MotionType { kNone, kLinear, kRotary };
+
+/// In files a motion that is kNone is left out.
+constexpr std::array<EnumName<MotionType>, 2> enum_names(MotionType) {
+  return {{{MotionType::kLinear, "linear"}, {MotionType::kRotary, "rotary"}}};
+}
 
 /// How rig and object move against each other, in the rig frame.
 struct Motion {

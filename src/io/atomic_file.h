@@ -4,12 +4,14 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <string_view>
 
 namespace lightstripe {
 
 /// A file that appears under its name only by commit(); dropped without it, nothing is left behind.
-/// Errors (no such folder, no permission, disk full) are Error with the final path.
+/// Errors (a folder of that name, no permission, disk full) are Error with the final path. A device or pipe
+/// (/dev/stdout) is written directly.
 class AtomicFile {
  public:
   explicit AtomicFile(const std::filesystem::path& path);  ///< makes missing folders
@@ -19,6 +21,8 @@ class AtomicFile {
 
   /// Where to write before commit(): a name in the same folder that ends in the same extension.
   const std::filesystem::path& temporary() const { return temporary_; }
+  /// The final name.
+  const std::filesystem::path& path() const { return path_; }
   void commit();
 
  private:

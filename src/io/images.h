@@ -4,8 +4,8 @@
 // OpenCV's codecs stay inside this folder.
 #pragma once
 
-#include <cstdint>
 #include <array>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -18,7 +18,8 @@
 namespace lightstripe {
 
 /// Which grey value a colour pixel gives. Excess = channel minus the larger of the other two, 0 if negative.
-/// Auto: grey images as they are; colour images by the excess channel with the strongest bright peaks (the laser's colour).
+/// Auto: grey images as they are; colour images by the excess channel with the strongest bright peaks (the
+/// laser's colour).
 enum class Channel { kAuto, kGray, kRed, kGreen, kBlue, kRedExcess, kGreenExcess, kBlueExcess };
 
 constexpr std::array<EnumName<Channel>, 8> enum_names(Channel) {
@@ -32,8 +33,8 @@ constexpr std::array<EnumName<Channel>, 8> enum_names(Channel) {
            {Channel::kBlueExcess, "blue-excess"}}};
 }
 
-/// Decodes a picture. An Error for a file that is missing, empty, truncated, no image, or larger than 2^28 pixels
-/// (looked up in the header before anything is allocated). 16-bit pictures are scaled to 8 bits.
+/// Decodes a picture. An Error for a file that is missing, empty, truncated, no image, or larger than 2^28
+/// pixels (looked up in the header before anything is allocated). 16-bit pictures are scaled to 8 bits.
 Image8 read_image(const std::filesystem::path& path, Channel channel = Channel::kAuto);
 
 /// As read_image; with kAuto also tells which channel it took, so that a sequence can stay with it.
@@ -43,7 +44,8 @@ Image8 read_image(const std::filesystem::path& path, Channel channel, Channel* c
 void write_image(const std::filesystem::path& path, ImageView8 image);
 
 /// An interleaved 8-bit RGB picture of width * height * 3 bytes.
-void write_rgb_image(const std::filesystem::path& path, const std::vector<std::uint8_t>& rgb, int width, int height);
+void write_rgb_image(const std::filesystem::path& path, const std::vector<std::uint8_t>& rgb, int width,
+                     int height);
 
 /// Files that match `pattern` (one folder, '*' and '?' in the file name; or one file) in natural order
 /// (img_2 before img_10), relative to `base` unless absolute. An Error when there is none.
@@ -66,6 +68,7 @@ class FrameSource {
 };
 
 /// Opens what a scan's `frames:` names. With Channel::kAuto the first frame decides for all.
-std::unique_ptr<FrameSource> open_frames(const std::filesystem::path& base, const std::string& pattern, Channel channel);
+std::unique_ptr<FrameSource> open_frames(const std::filesystem::path& base, const std::string& pattern,
+                                         Channel channel);
 
 }  // namespace lightstripe

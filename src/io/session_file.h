@@ -19,16 +19,16 @@ namespace lightstripe {
 
 struct SessionSensor {
   std::string name;
-  std::string board;                  ///< file pattern, laser off (or on, if `laser` is left out)
-  std::optional<std::string> laser;   ///< file pattern, same poses, laser on
+  std::string board;                 ///< file pattern, laser off (or on, if `laser` is left out)
+  std::optional<std::string> laser;  ///< file pattern, same poses, laser on
   int laser_planes = 1;
 };
 
 struct SessionMotion {
   MotionType type = MotionType::kLinear;
   std::string sensor;
-  std::string board;    ///< file pattern
-  std::string travel;   ///< travel.csv: image,travel_mm (rotary: image,angle_deg)
+  std::string board;   ///< file pattern
+  std::string travel;  ///< travel.csv: image,travel_mm (rotary: image,angle_deg)
   bool rig_moves = true;
 };
 
@@ -38,10 +38,10 @@ struct Session {
   Target target;
   std::vector<SessionSensor> sensors;
   std::optional<SessionMotion> motion;
-  Eigen::Vector3d up{0, -1, 0};   ///< hint, first sensor's camera frame
+  Eigen::Vector3d up{0, -1, 0};  ///< hint, first sensor's camera frame
   Channel channel = Channel::kAuto;
-  YamlSubtree extraction;         ///< any option of the extraction
-  YamlSubtree calibration;        ///< any option of the calibration
+  YamlSubtree extraction;   ///< any option of the extraction
+  YamlSubtree calibration;  ///< any option of the calibration
 };
 
 Session read_session(const std::filesystem::path& path);
@@ -53,12 +53,13 @@ enum class TravelSource { kNone, kFile, kStep, kPoses };
 struct Scan {
   std::filesystem::path folder;
   std::string rig;
-  std::vector<std::pair<std::string, std::string>> frames;  ///< sensor name, pattern or video; in the file's order
+  std::vector<std::pair<std::string, std::string>>
+      frames;  ///< sensor name, pattern or video; in the file's order
   TravelSource travel = TravelSource::kNone;
-  std::string travel_file;          ///< kFile: frame,travel_mm (rotary: frame,angle_deg)
-  double travel_step = 0;           ///< kStep: mm or degrees a frame
-  std::string poses_file;           ///< kPoses: frame,qw,qx,qy,qz,x,y,z
-  std::string poses_of;             ///< kPoses: sensor name, or "rig"
+  std::string travel_file;  ///< kFile: frame,travel_mm (rotary: frame,angle_deg)
+  double travel_step = 0;   ///< kStep: mm or degrees a frame
+  std::string poses_file;   ///< kPoses: frame,qw,qx,qy,qz,x,y,z
+  std::string poses_of;     ///< kPoses: sensor name, or "rig"
   Channel channel = Channel::kAuto;
   YamlSubtree extraction;
 };

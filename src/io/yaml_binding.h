@@ -1,33 +1,70 @@
 // SPDX-FileCopyrightText: 2026 The lightstripe authors
 // SPDX-License-Identifier: Apache-2.0
-// Strict YAML for structs that list their fields (core/fields.h): unknown, repeated and ill-typed keys are errors that
-// name file, key and line. yaml-cpp stays inside this folder.
+// Strict YAML for structs that list their fields (core/fields.h): unknown, repeated and ill-typed keys are
+// errors that name file, key and line. yaml-cpp stays inside this folder.
 #pragma once
 
-#include <Eigen/Core>
-#include <array>
 #include <filesystem>
-#include <memory>
-#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/error.h"
 #include "core/fields.h"
+#include "io/yaml_fields.h"
 
 namespace lightstripe {
 
-/// A part of a YAML file kept as it stands, to be bound later by whoever knows its fields
-/// (the extraction options of a scan). Empty = not given.
-struct YamlSubtree {
-  std::string text;    ///< YAML text of the part
-  std::string origin;  ///< "scan.yaml: extraction", for messages
-};
-
-namespace detail {
-class YamlNode;  // yaml-cpp's node, hidden
+/// Sets the fields that the file gives; the others keep their values. An Error reads
+/// "<file>: <dotted.key> (line N): <what is wrong>; <what to do>". After an Error the object is part old,
+/// part new.
+template <HasFields T>
+void read_yaml(const std::filesystem::path& path, T& object) {
+  detail::read_field(detail::parse_yaml_file(path), object, {path.string(), ""});
 }
 
-// (implementation: the io owner completes this header: read_yaml, read_subtree, dump_yaml)
+/// As read_yaml, for a part that a file reader kept; an empty part changes nothing.
+template <HasFields T>
+void read_subtree(const YamlSubtree& part, T& object) {
+  const detail::YamlPlace place = detail::place_of(part);
+  if (!part.empty()) detail::read_field(detail::parse_yaml(part.text, place), object, place);
+}
+
+/// YAML text that read_yaml reads back to the same bits. With comments it explains the fields
+/// and shows those that are not given as "# key:".
+template <HasFields T>
+std::string dump_yaml(const T& object, bool comments = false) {
+  detail::YamlNode node;
+  detail::write_field(node, object);
+  return detail::emit_yaml(node, comments);
+}
+
+/// Overrides one field by its dotted name ("thresholds.low", "3") as the command line does; text for a list
+/// or a number is read as YAML, a text field takes it as it stands. Messages begin with `origin`
+/// ("--extraction"), if given.
+template <HasFields T>
+void set_field(T& object, std::string_view dotted_key, const std::string& text,
+               const std::string& origin = "") {
+  detail::set_field_at(object, dotted_key, text, {"", origin});
+}
+
+/// A leaf of a struct's fields, for --help and tests.
+struct FieldText {
+  std::string key;    ///< dotted
+  std::string value;  ///< as YAML, empty where not given
+  std::string comment;
+};
+
+template <HasFields T>
+std::vector<FieldText> list_fields(const T& object) {
+  detail::YamlNode node;
+  detail::write_field(node, object);
+  std::vector<FieldText> fields;
+  detail::for_each_leaf(
+      node, "", [&fields](const std::string& key, const std::string& value, const std::string& comment) {
+        fields.push_back({key, value, comment});
+      });
+  return fields;
+}
 
 }  // namespace lightstripe

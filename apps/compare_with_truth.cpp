@@ -1,0 +1,147 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/compare_with_truth.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <set>
+
+#include "core/error.h"
+#include "core/polyline_search.h"
+#include "core/section_alignment.h"
+#include "io/csv_reader.h"
+
+namespace lightstripe {
+namespace {
+
+namespace fs = std::filesystem;
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+constexpr double kDegrees = 180 / std::numbers::pi;
+constexpr double kFarMm = 1.0;      // a point farther off than this is wrong, not inaccurate
+constexpr double kSearchMm = 5.0;
+
+double angle_deg(const Vector3d& a, const Vector3d& b) {
+  return std::atan2(a.cross(b).norm(), a.dot(b)) * kDegrees;
+}
+
+SensorError compare_sensors(const Sensor& sensor, const Sensor& truth) {
+  const Plane& plane = sensor.laser_planes.at(0);
+  const Plane& true_plane = truth.laser_planes.at(0);
+  // Where the optical axis meets the true plane: the middle of what the sensor measures.
+  const Vector3d middle = intersect(true_plane, Vector3d::Zero(), Vector3d::UnitZ()).value_or(true_plane.normal * true_plane.offset);
+  SensorError error;
+  error.name = sensor.name;
+  error.plane_angle_deg = angle_deg(plane.normal, true_plane.normal);
+  error.plane_offset_mm = std::abs(plane.signed_distance(middle));
+  error.focal_relative = std::abs(sensor.camera.fx / truth.camera.fx - 1);
+  return error;
+}
+
+using Polylines = std::map<std::int64_t, std::vector<Vector2d>>;
+
+Polylines read_sections(const fs::path& file) {
+  Polylines sections;
+  CsvReader rows(file, {"frame", "u", "v"});
+  while (rows.next()) sections[rows.integer(0)].push_back({rows.number(1), rows.number(2)});
+  return sections;
+}
+
+/// A bare set of places with a fast question: is there one within `reach` of here?
+class PlaceIndex {
+ public:
+  explicit PlaceIndex(double reach) : reach_(reach) {}
+  void insert(const Vector3d& p) { cells_[key(p, {0, 0, 0})].push_back(p); }
+  bool near(const Vector3d& p) const {
+    for (int i = 0; i < 27; ++i) {
+      const auto cell = cells_.find(key(p, {i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1}));
+      if (cell == cells_.end()) continue;
+      for (const auto& other : cell->second)
+        if ((other - p).squaredNorm() <= reach_ * reach_) return true;
+    }
+    return false;
+  }
+
+ private:
+  std::array<long, 3> key(const Vector3d& p, const Eigen::Vector3i& shift) const {
+    const auto cell = [&](int axis) { return std::lround(std::floor(p[axis] / reach_)) + shift[axis]; };
+    return {cell(0), cell(1), cell(2)};
+  }
+  double reach_;
+  std::map<std::array<long, 3>, std::vector<Vector3d>> cells_;
+};
+
+/// The part of the true stripe points (blobs' places apart) with a measured point of their sensor and frame near by.
+double recovered(const std::vector<Profile>& profiles, const fs::path& stripes) {
+  std::map<std::pair<std::int64_t, int>, PlaceIndex> measured;
+  for (const auto& profile : profiles)
+    for (const auto& point : profile.points)
+      measured.try_emplace({profile.frame, point.sensor}, 1.5 * kFarMm).first->second.insert(point.position);
+  long visible = 0, found = 0;
+  CsvReader rows(stripes, {"frame", "sensor", "X", "Y", "Z", "blob"});
+  while (rows.next()) {
+    if (rows.integer(0) < 0 || rows.integer(5) != 0) continue;  // frame -1: a calibration image
+    const auto index = measured.find({rows.integer(0), static_cast<int>(rows.integer(1))});
+    ++visible;
+    if (index != measured.end() && index->second.near({rows.number(2), rows.number(3), rows.number(4)})) ++found;
+  }
+  return visible > 0 ? static_cast<double>(found) / static_cast<double>(visible) : 0.0;
+}
+
+struct SquareSum {
+  double sum = 0;
+  long count = 0;
+  void add(double rms, long n) {
+    sum += rms * rms * static_cast<double>(n);
+    count += n;
+  }
+  double rms() const { return count > 0 ? std::sqrt(sum / static_cast<double>(count)) : 0.0; }
+};
+
+}  // namespace
+
+RigError compare_rigs(const Rig& rig, const Rig& truth) {
+  LIGHTSTRIPE_CHECK(rig.sensors.size() == truth.sensors.size(), "the rigs must have the same sensors");
+  RigError error;
+  const Rigid3 first = rig.sensors[0].rig_from_camera, true_first = truth.sensors[0].rig_from_camera;
+  for (std::size_t i = 0; i < rig.sensors.size(); ++i) {
+    error.sensors.push_back(compare_sensors(rig.sensors[i], truth.sensors[i]));
+    const Rigid3 seen = first.inverse() * rig.sensors[i].rig_from_camera;
+    const Rigid3 true_seen = true_first.inverse() * truth.sensors[i].rig_from_camera;
+    error.baseline_mm = std::max(error.baseline_mm, (seen.translation - true_seen.translation).norm());
+    error.baseline_deg = std::max(error.baseline_deg, rotation_angle(seen.rotation.conjugate() * true_seen.rotation) * kDegrees);
+  }
+  error.travel_deg = angle_deg(first.rotation.conjugate() * Vector3d::UnitX(), true_first.rotation.conjugate() * Vector3d::UnitX());
+  return error;
+}
+
+CloudError compare_cloud(const std::vector<Profile>& profiles, const fs::path& truth) {
+  const Polylines sections = read_sections(truth / "sections.csv");
+  CloudError error;
+  SquareSum shape, absolute;
+  double far = 0;
+  for (const auto& profile : profiles) {
+    const auto section = sections.find(profile.frame);
+    if (section == sections.end() || profile.points.size() < 3) continue;
+    std::vector<Vector2d> measured;
+    for (const auto& point : profile.points) measured.push_back({point.u, point.v});
+    const SectionAlignment alignment = align_section(measured, section->second, {.search_mm = kSearchMm, .far_mm = kFarMm});
+    shape.add(alignment.rms_mm, alignment.num_points);
+    far += alignment.far_fraction * static_cast<double>(measured.size());
+    error.points += static_cast<long>(measured.size());
+    const PolylineSearch search(section->second, kSearchMm);
+    for (const auto& p : measured)
+      if (const auto foot = search.nearest(p)) absolute.add(foot->signed_distance, 1);
+  }
+  error.shape_rms_mm = shape.rms();
+  error.absolute_rms_mm = absolute.rms();
+  error.far_fraction = error.points > 0 ? far / static_cast<double>(error.points) : 0.0;
+  error.recovered_fraction = recovered(profiles, truth / "stripes.csv");
+  return error;
+}
+
+}  // namespace lightstripe

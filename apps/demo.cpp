@@ -1,0 +1,102 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "apps/calibrate.h"
+#include "apps/command.h"
+#include "apps/compare_with_truth.h"
+#include "apps/reconstruct.h"
+#include "apps/simulate.h"
+#include "core/error.h"
+#include "extraction/overlay.h"
+#include "io/images.h"
+#include "io/rig_file.h"
+#include "io/session_file.h"
+#include "io/tables.h"
+
+namespace lightstripe {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The pictures with the lines drawn in: the middle frame of each sensor.
+void draw_overlays(const Scan& scan, const fs::path& folder) {
+  for (const auto& [sensor, pattern] : scan.frames) {
+    const auto files = list_files(scan.folder, pattern);
+    const Image8 image = read_image(files[files.size() / 2], scan.channel);
+    ExtractionOptions options;
+    read_subtree(scan.extraction, options);
+    write_rgb_image(folder / (sensor + ".png"), draw_overlay(image, extract_stripes(image, options).stripes), image.width,
+                    image.height);
+  }
+}
+
+std::string accuracy_table(const RigError& rig, const CloudError& cloud) {
+  std::string table;
+  const auto row = [&](const std::string& what, const std::string& value) {
+    table += fmt::format("| {:<58} | {:>12} |\n", what, value);
+  };
+  row("result against the known truth", "error");
+  table += fmt::format("|{:-<60}|{:->13}:|\n", "", "");
+  for (const auto& sensor : rig.sensors) {
+    row(fmt::format("laser plane of {}, direction", sensor.name), fmt::format("{:.3f} deg", sensor.plane_angle_deg));
+    row(fmt::format("laser plane of {}, place", sensor.name), fmt::format("{:.3f} mm", sensor.plane_offset_mm));
+  }
+  if (rig.sensors.size() > 1) row("sensor to sensor", fmt::format("{:.3f} mm", rig.baseline_mm));
+  row("direction of travel", fmt::format("{:.3f} deg", rig.travel_deg));
+  row("sections, shape after one rigid move each, rms", fmt::format("{:.4f} mm", cloud.shape_rms_mm));
+  row("sections, place as well, rms", fmt::format("{:.3f} mm", cloud.absolute_rms_mm));
+  row("points more than 1 mm off", fmt::format("{:.3f} %", 100 * cloud.far_fraction));
+  row("visible lit stripe recovered", fmt::format("{:.1f} %", 100 * cloud.recovered_fraction));
+  table.pop_back();
+  return table;
+}
+
+int run_demo(const CommonOptions& common) {
+  const fs::path folder = common.output.empty() ? "demo-output" : common.output;
+  CommonOptions stage = common;
+
+  say(common, "1/3 rendering a calibration session and a scan of a rail");
+  stage.output = folder.string();
+  const SimulationSummary simulated = simulate_with_progress(Scene{}, stage);
+
+  say(common, "2/3 calibrating the rig from the board images");
+  stage.output = (folder / "rig.yaml").string();
+  stage.quiet = true;
+  if (const int code = calibrate_session(simulated.session.string(), {}, {}, stage); code != kExitDone) return code;
+
+  say(common, "3/3 reconstructing the scan\n");
+  ReconstructArguments arguments;
+  arguments.common = stage;
+  arguments.common.output = (folder / "cloud.ply").string();
+  arguments.scan = simulated.scan.string();
+  arguments.profiles = (folder / "profiles.csv").string();
+  arguments.preview = (folder / "cloud.png").string();
+  const ReconstructOutcome outcome = reconstruct_scan(arguments);
+  if (outcome.summary.points == 0) return not_usable("the scan gave no points");
+  draw_overlays(read_scan(simulated.scan), folder / "overlay");
+
+  const RigError rig = compare_rigs(read_rig(folder / "rig.yaml"), read_rig(simulated.truth / "rig.yaml"));
+  const CloudError cloud = compare_cloud(read_profiles(folder / "profiles.csv"), simulated.truth);
+  say(common, accuracy_table(rig, cloud));
+  say(common, fmt::format("\n{} points from {} frames of {} sensors, {:.0f} frames/s with {} threads (PNG decoding included)",
+                          outcome.summary.points, outcome.summary.frames, rig.sensors.size(),
+                          static_cast<double>(outcome.summary.frames) / outcome.seconds, thread_count(common)));
+  say(common, fmt::format("\ncloud      {0}/cloud.ply (picture: {0}/cloud.png)\nsections   {0}/profiles.csv\n"
+                          "overlays   {0}/overlay/*.png\nrig        {0}/rig.yaml\ntruth      {0}/truth/",
+                          folder.string()));
+  return kExitDone;
+}
+
+}  // namespace
+
+void add_demo_command(CLI::App& app, Command& run) {
+  auto* command = app.add_subcommand("demo", "the whole chain on a built-in synthetic rig, results beside the truth");
+  auto common = std::make_shared<CommonOptions>();
+  add_common_options(*command, *common, "folder to write to (default: demo-output)");
+  command->callback([common, &run] { run = [common] { return run_demo(*common); }; });
+}
+
+}  // namespace lightstripe

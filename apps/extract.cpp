@@ -1,0 +1,124 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+#include "extraction/extract_stripes.h"
+
+#include <fmt/format.h>
+#include <oneapi/tbb/parallel_for.h>
+
+#include <filesystem>
+#include <fstream>
+#include <set>
+
+#include "apps/command.h"
+#include "apps/progress.h"
+#include "core/error.h"
+#include "extraction/overlay.h"
+#include "io/atomic_file.h"
+#include "io/images.h"
+#include "io/tables.h"
+
+namespace lightstripe {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct ExtractArguments {
+  CommonOptions common;
+  std::vector<std::string> images;
+  std::string channel = "auto";
+  std::string overlay_folder;
+  Overrides overrides;
+};
+
+/// One picture a name; pictures of the same name from several folders keep apart by the folder's name in front.
+std::vector<fs::path> overlay_names(const std::vector<std::string>& images, const fs::path& folder) {
+  std::vector<fs::path> names;
+  std::set<std::string> taken;
+  for (const auto& image : images) {
+    const fs::path path(image);
+    std::string name = path.stem().string();
+    if (taken.contains(name)) name = path.parent_path().filename().string() + "_" + name;
+    for (int copy = 2; taken.contains(name); ++copy) name = fmt::format("{}_{}", path.stem().string(), copy);
+    taken.insert(name);
+    names.push_back(folder / (name + ".png"));
+  }
+  return names;
+}
+
+Channel parse_channel(const std::string& text) {
+  for (const auto& [value, name] : enum_names(Channel{}))
+    if (name == text) return value;
+  throw Error("--channel", "'" + text + "' is no channel",
+              "use auto, gray, red, green, blue, red-excess, green-excess or blue-excess");
+}
+
+struct Extracted {
+  std::string rows;
+  std::size_t lines = 0, points = 0;
+};
+
+Extracted extract_one(const std::string& file, Channel channel, const ExtractionOptions& options,
+                      const std::optional<fs::path>& overlay) {
+  const Image8 image = read_image(file, channel);
+  const ExtractionResult result = extract_stripes(image, options);
+  Extracted out;
+  append_stripes(out.rows, file, result.stripes);
+  out.lines = result.stripes.size();
+  for (const auto& stripe : result.stripes) out.points += stripe.points.size();
+  if (overlay) write_rgb_image(*overlay, draw_overlay(image, result.stripes), image.width, image.height);
+  return out;
+}
+
+int run_extract(const ExtractArguments& arguments) {
+  const ThreadLimit limit(arguments.common);
+  ExtractionOptions options;
+  apply_overrides(options, arguments.overrides);
+  const Channel channel = parse_channel(arguments.channel);
+  std::vector<fs::path> overlays;
+  if (!arguments.overlay_folder.empty()) overlays = overlay_names(arguments.images, arguments.overlay_folder);
+  const std::size_t total = arguments.images.size();
+  const std::size_t batch = 2 * static_cast<std::size_t>(thread_count(arguments.common));  // bounds the memory
+
+  AtomicFile file(arguments.common.output.empty() ? "stripes.csv" : arguments.common.output);
+  std::ofstream table(file.temporary(), std::ios::binary);
+  table << kStripesHeader;
+  Progress progress("extracting", "images", static_cast<std::int64_t>(total), arguments.common.quiet);
+  std::size_t lines = 0, points = 0;
+  for (std::size_t begin = 0; begin < total; begin += batch) {
+    std::vector<Extracted> results(std::min(batch, total - begin));
+    oneapi::tbb::parallel_for(std::size_t{0}, results.size(), [&](std::size_t i) {
+      const std::size_t index = begin + i;
+      results[i] = extract_one(arguments.images[index], channel, options,
+                               overlays.empty() ? std::nullopt : std::optional(overlays[index]));
+      progress.step();
+    });
+    for (const auto& result : results) {
+      table << result.rows;
+      lines += result.lines;
+      points += result.points;
+    }
+  }
+  table.close();
+  if (!table) throw Error(file.path().string(), "writing failed", "check the disk's free space");
+  file.commit();
+  say(arguments.common, fmt::format("{} images, {} lines, {} points -> {}", total, lines, points, file.path().string()));
+  if (points == 0)
+    return not_usable("no stripe was found in any image; look at exposure and --channel, or give --stripe-width and --thresholds");
+  return kExitDone;
+}
+
+}  // namespace
+
+void add_extract_command(CLI::App& app, Command& run) {
+  auto* command = app.add_subcommand("extract", "centre lines of the light stripes in single images");
+  auto arguments = std::make_shared<ExtractArguments>();
+  command->add_option("images", arguments->images, "image files")->required();
+  add_common_options(*command, arguments->common, "table of points (default: stripes.csv)");
+  command->add_option("--channel", arguments->channel,
+                      "of colour images: auto, gray, red, green, blue, red-excess, green-excess, blue-excess");
+  command->add_option("--overlay", arguments->overlay_folder, "folder for pictures with the lines drawn in");
+  add_field_options<ExtractionOptions>(*command, "", arguments->overrides);
+  command->callback([arguments, &run] { run = [arguments] { return run_extract(*arguments); }; });
+}
+
+}  // namespace lightstripe

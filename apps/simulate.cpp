@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+#include "simulate/simulate.h"
+
+#include <fmt/format.h>
+
+#include <memory>
+#include <optional>
+
+#include "apps/command.h"
+#include "apps/progress.h"
+#include "apps/simulate.h"
+
+namespace lightstripe {
+
+SimulationSummary simulate_with_progress(const Scene& scene, const CommonOptions& common) {
+  std::optional<Progress> progress;
+  return simulate_scene(scene, common.output, thread_count(common), [&](int, int total) {
+    if (!progress) progress.emplace("rendering", "images", total, common.quiet);
+    progress->step();
+  });
+}
+
+namespace {
+
+struct SimulateArguments {
+  CommonOptions common;
+  std::string scene;
+  bool print_scene = false;
+};
+
+int run_simulate(const SimulateArguments& arguments) {
+  if (arguments.print_scene) {
+    fmt::print("{}", dump_yaml(arguments.scene.empty() ? Scene{} : read_scene(arguments.scene), true));
+    return kExitDone;
+  }
+  const ThreadLimit limit(arguments.common);
+  const SimulationSummary summary = simulate_with_progress(read_scene(arguments.scene), arguments.common);
+  say(arguments.common, fmt::format("{} images; session {}, scan {}, truth {}", summary.images, summary.session.string(),
+                                    summary.scan.string(), summary.truth.string()));
+  return kExitDone;
+}
+
+}  // namespace
+
+void add_simulate_command(CLI::App& app, Command& run) {
+  auto* command = app.add_subcommand("simulate", "renders a calibration session and a scan of a known scene");
+  auto arguments = std::make_shared<SimulateArguments>();
+  auto* scene = command->add_option("scene", arguments->scene, "scene (YAML); see configs/scenes");
+  auto* print = command->add_flag("--print-scene", arguments->print_scene,
+                                  "print the scene (without one: the demo's) with every key and its meaning");
+  add_common_options(*command, arguments->common, "folder to write to (required)");
+  command->callback([command, scene, print, arguments, &run] {
+    if (print->count() == 0 && scene->count() == 0) throw CLI::RequiredError("scene");
+    if (print->count() == 0 && command->get_option("--output")->count() == 0) throw CLI::RequiredError("--output");
+    run = [arguments] { return run_simulate(*arguments); };
+  });
+}
+
+}  // namespace lightstripe

@@ -1,0 +1,77 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+#include "extraction/kernels_window.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "extraction/kernels_window.cpp"
+// Highway compiles this file once for each instruction set.
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace lightstripe {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+template <class T>
+Derivatives window(const T* top_left, std::ptrdiff_t stride, const float* wx, const float* wy, int taps,
+                   int pitch) {
+  const hn::CappedTag<float, DerivativeKernels::kLanes> d;
+  const hn::Rebind<T, decltype(d)> d_pixel;
+  const hn::Rebind<std::int32_t, decltype(d)> d_int;
+  const auto lanes = static_cast<int>(hn::Lanes(d));
+  auto value = hn::Zero(d), dx = hn::Zero(d), dy = hn::Zero(d);
+  auto dxx = hn::Zero(d), dxy = hn::Zero(d), dyy = hn::Zero(d);
+  for (int i = 0; i < taps; i += lanes) {
+    auto smooth = hn::Zero(d), slope = hn::Zero(d), curvature = hn::Zero(d);
+    const T* pixel = top_left + i;
+    for (int j = 0; j < taps; ++j, pixel += stride) {
+      const auto grey = hn::ConvertTo(d, hn::PromoteTo(d_int, hn::LoadU(d_pixel, pixel)));
+      smooth = hn::MulAdd(grey, hn::Set(d, wy[j]), smooth);
+      slope = hn::MulAdd(grey, hn::Set(d, wy[pitch + j]), slope);
+      curvature = hn::MulAdd(grey, hn::Set(d, wy[2 * pitch + j]), curvature);
+    }
+    const auto x0 = hn::LoadU(d, wx + i), x1 = hn::LoadU(d, wx + pitch + i),
+               x2 = hn::LoadU(d, wx + 2 * pitch + i);
+    value = hn::MulAdd(smooth, x0, value);
+    dx = hn::MulAdd(smooth, x1, dx);
+    dxx = hn::MulAdd(smooth, x2, dxx);
+    dy = hn::MulAdd(slope, x0, dy);
+    dxy = hn::MulAdd(slope, x1, dxy);
+    dyy = hn::MulAdd(curvature, x0, dyy);
+  }
+  const auto sum = [d](auto v) { return hn::GetLane(hn::SumOfLanes(d, v)); };
+  return {sum(value), sum(dx), sum(dy), sum(dxx), sum(dxy), sum(dyy)};
+}
+
+Derivatives window8(const std::uint8_t* top_left, std::ptrdiff_t stride, const float* wx, const float* wy,
+                    int taps, int pitch) {
+  return window(top_left, stride, wx, wy, taps, pitch);
+}
+Derivatives window16(const std::uint16_t* top_left, std::ptrdiff_t stride, const float* wx, const float* wy,
+                     int taps, int pitch) {
+  return window(top_left, stride, wx, wy, taps, pitch);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lightstripe
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace lightstripe {
+
+HWY_EXPORT(window8);
+HWY_EXPORT(window16);
+
+Derivatives window_derivatives(const std::uint8_t* top_left, std::ptrdiff_t stride, const float* weights_x,
+                               const float* weights_y, int taps, int pitch) {
+  return HWY_DYNAMIC_DISPATCH(window8)(top_left, stride, weights_x, weights_y, taps, pitch);
+}
+
+Derivatives window_derivatives(const std::uint16_t* top_left, std::ptrdiff_t stride, const float* weights_x,
+                               const float* weights_y, int taps, int pitch) {
+  return HWY_DYNAMIC_DISPATCH(window16)(top_left, stride, weights_x, weights_y, taps, pitch);
+}
+
+}  // namespace lightstripe
+#endif  // HWY_ONCE

@@ -1,0 +1,94 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+#include "extraction/line_measure.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "extraction/cross_profile.h"
+#include "extraction/line_point.h"
+
+namespace lightstripe {
+namespace {
+
+template <class T>
+CrossProfile profile_at(ImageView<T> image, const StripePoint& p, double full_width) {
+  const bool column = std::abs(p.normal_y) >= std::abs(p.normal_x);
+  const double cosine = column ? std::abs(p.normal_y) : std::abs(p.normal_x);
+  const int reach = 2 + static_cast<int>(std::ceil(1.25 * full_width / cosine));
+  if (column) {
+    const int x = std::clamp(static_cast<int>(std::lround(p.x)), 0, image.width - 1);
+    return measure_profile(column_line(image, x), p.y, reach);
+  }
+  const int y = std::clamp(static_cast<int>(std::lround(p.y)), 0, image.height - 1);
+  return measure_profile(row_line(image, y), p.x, reach);
+}
+
+}  // namespace
+
+double median_of(std::vector<float>& values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+template <class T>
+void measure_points(ImageView<T> image, const DerivativeKernels& kernels, LineSet& lines,
+                    std::vector<float>& contrast) {
+  const double full_width = 2 * std::numbers::sqrt3 * kernels.sigma;
+  constexpr double kClipped = std::numeric_limits<T>::max() - 1;  // some cameras stop one level short
+  contrast.resize(lines.points.size());
+  for (std::size_t i = 0; i < lines.points.size(); ++i) {
+    StripePoint& p = lines.points[i];
+    const CrossProfile profile = profile_at(image, p, full_width);
+    const double cosine = std::max(std::abs(p.normal_x), std::abs(p.normal_y));
+    p.width = profile.width() * cosine;
+    p.intensity = static_cast<float>(profile.intensity());
+    contrast[i] = static_cast<float>(profile.contrast());
+    if (profile.brightest >= kClipped) p.flags |= kStripeSaturated;
+    if (std::abs(profile.left - profile.right) > 0.35 * profile.width()) p.flags |= kStripeAsymmetric;
+  }
+}
+
+template void measure_points<std::uint8_t>(ImageView8, const DerivativeKernels&, LineSet&,
+                                           std::vector<float>&);
+template void measure_points<std::uint16_t>(ImageView16, const DerivativeKernels&, LineSet&,
+                                            std::vector<float>&);
+
+void smooth_measures(const DerivativeKernels& kernels, LineSet& lines, std::vector<StripePoint>& scratch) {
+  const auto reach = static_cast<std::ptrdiff_t>(std::lround(1.5 * kernels.sigma));
+  for (const LineRange& r : lines.lines) {
+    scratch.assign(lines.points.begin() + static_cast<std::ptrdiff_t>(r.begin),
+                   lines.points.begin() + static_cast<std::ptrdiff_t>(r.end));
+    const auto count = static_cast<std::ptrdiff_t>(scratch.size());
+    for (std::ptrdiff_t i = 0; i < count; ++i) {
+      double width = 0, intensity = 0;
+      int used = 0;
+      for (std::ptrdiff_t k = std::max<std::ptrdiff_t>(0, i - reach); k <= std::min(count - 1, i + reach);
+           ++k) {
+        const StripePoint& p = scratch[static_cast<std::size_t>(k)];
+        if ((p.flags & kStripeBridged) != 0) continue;
+        width += p.width;
+        intensity += p.intensity;
+        ++used;
+      }
+      if (used == 0) continue;
+      StripePoint& p = lines.points[r.begin + static_cast<std::size_t>(i)];
+      p.width = width / used;
+      p.intensity = static_cast<float>(intensity / used);
+    }
+  }
+}
+
+void predict_errors(const DerivativeKernels& kernels, double noise, LineSet& lines) {
+  for (StripePoint& p : lines.points) {
+    p.sigma_px = centre_sigma(kernels, noise, p.strength);
+    // A bridged point is as good as the curve between its neighbours: far worse than a measured one.
+    if ((p.flags & kStripeBridged) != 0) p.sigma_px = std::max(5 * p.sigma_px, 0.1 * kernels.sigma);
+  }
+}
+
+}  // namespace lightstripe

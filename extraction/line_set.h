@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+// The lines under work between following and the final stripes: points in one array, lines as ranges of it.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "core/stripe.h"
+
+namespace lightstripe {
+
+/// Points [begin, end) of LineSet::points, in order along the line.
+struct LineRange {
+  std::size_t begin = 0;
+  std::size_t end = 0;
+  std::size_t size() const { return end - begin; }
+};
+
+struct LineSet {
+  std::vector<StripePoint> points;
+  std::vector<LineRange> lines;
+
+  void clear() {
+    points.clear();
+    lines.clear();
+  }
+};
+
+}  // namespace lightstripe

@@ -1,0 +1,213 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+#include "extraction/line_tests.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "extraction/bridge.h"
+#include "extraction/line_measure.h"
+
+namespace lightstripe {
+namespace {
+
+/// Pixel noise that remains in the 1:2:1 mean at the centre of a profile.
+constexpr double kTopNoise = 0.62;
+
+struct Trial {
+  const DerivativeKernels& kernels;
+  double noise;
+  const LineTestOptions& options;
+  LineTestWorkspace& w;
+  double full_width;  ///< px, of the stripes of this image
+
+  /// Median of the contrasts at i - 1, i, i + 1 inside the range.
+  double contrast(const LineRange& r, std::size_t i) const {
+    const std::size_t a = i > r.begin ? i - 1 : i, b = i + 1 < r.end ? i + 1 : i;
+    return median_of_three(w.contrast[a], w.contrast[i], w.contrast[b]);
+  }
+  static double median_of_three(double a, double b, double c) {
+    return std::max(std::min(a, b), std::min(std::max(a, b), c));
+  }
+};
+
+/// Whether the stripe itself is there, unsmoothed: the kernels see a line's end up to sigma beyond it.
+bool is_lit(const Trial& t, const LineRange& r, std::size_t i, const StripePoint& p) {
+  const double expected = p.strength / t.kernels.matched_strength();
+  return t.contrast(r, i) >= std::max(2.5 * kTopNoise * t.noise, 0.12 * expected);
+}
+
+/// Cuts unlit and bridged points off both ends. A lit end has half the contrast of the line a little further
+/// in: what is darker was only blurred over the end.
+LineRange trimmed(const Trial& t, const LineSet& lines, LineRange r) {
+  const auto inside = static_cast<std::size_t>(std::lround(2.0 * t.kernels.sigma)) + 1;
+  const auto bad = [&](std::size_t i, std::size_t further_in) {
+    return (lines.points[i].flags & kStripeBridged) != 0 || !is_lit(t, r, i, lines.points[i]) ||
+           t.contrast(r, i) < 0.5 * t.contrast(r, further_in);
+  };
+  while (r.size() > inside && bad(r.begin, r.begin + inside)) ++r.begin;
+  while (r.size() > inside && bad(r.end - 1, r.end - 1 - inside)) --r.end;
+  return r.size() > inside ? r : LineRange{r.begin, r.begin};
+}
+
+double median_width(Trial& t, const LineSet& lines, const LineRange& r) {
+  t.w.scratch.clear();
+  for (std::size_t i = r.begin; i < r.end; ++i)
+    if ((lines.points[i].flags & kStripeBridged) == 0)
+      t.w.scratch.push_back(static_cast<float>(lines.points[i].width));
+  return median_of(t.w.scratch);
+}
+
+/// Replaces the points between two by a cubic that continues both sides; false where they do not fit.
+bool bridge_stretch(std::vector<StripePoint>& points, std::size_t before, std::size_t after) {
+  if (!can_bridge(points[before], points[after])) return false;
+  for (std::size_t i = before + 1; i < after; ++i)
+    points[i] = bridged_point(points[before], points[after],
+                              static_cast<double>(i - before) / static_cast<double>(after - before));
+  return true;
+}
+
+/// One kept stretch of a line.
+void keep(Trial& t, const LineSet& lines, LineRange r) {
+  r = trimmed(t, lines, r);
+  if (r.size() < 3) return;
+  LineSet& kept = t.w.kept;
+  const std::size_t begin = kept.points.size();
+  kept.points.insert(kept.points.end(), lines.points.begin() + static_cast<std::ptrdiff_t>(r.begin),
+                     lines.points.begin() + static_cast<std::ptrdiff_t>(r.end));
+  kept.lines.push_back({begin, kept.points.size()});
+}
+
+/// Bright spots on the line: bridged where both sides agree, else the line is cut there. Long unlit stretches
+/// cut, too.
+void mend_or_cut(Trial& t, LineSet& lines, const LineRange& whole) {
+  LineRange r = trimmed(t, lines, whole);
+  if (r.size() < 3) return;
+  const double spot_width = t.options.spot_width_ratio * median_width(t, lines, r);
+  const auto longest = static_cast<std::size_t>(t.options.max_spot_widths * t.full_width);
+  const auto margin = static_cast<std::size_t>(std::lround(t.kernels.sigma));
+  const auto wide = [&](std::size_t i) {
+    const std::size_t a = i > r.begin ? i - 1 : i, b = i + 1 < r.end ? i + 1 : i;
+    return Trial::median_of_three(lines.points[a].width, lines.points[i].width, lines.points[b].width) >
+           spot_width;
+  };
+  const auto bad = [&](std::size_t i) { return wide(i) || !is_lit(t, r, i, lines.points[i]); };
+  std::size_t begin = r.begin;
+  for (std::size_t i = r.begin; i < r.end;) {
+    if (!bad(i)) {
+      ++i;
+      continue;
+    }
+    std::size_t last = i;  // stretches closer than two margins are one
+    bool spot = wide(i);
+    for (std::size_t k = i; k < r.end && k <= last + 2 * margin + 1; ++k)
+      if (bad(k)) {
+        last = k;
+        spot = spot || wide(k);
+      }
+    const std::size_t grown = spot ? margin : 0;
+    const std::size_t before = i > begin + grown + 1 ? i - 1 - grown : begin;
+    const std::size_t after = std::min(last + 1 + grown, r.end);
+    const bool inside = before > begin && after < r.end;
+    if (!inside || after - before > longest || !bridge_stretch(lines.points, before, after)) {
+      keep(t, lines, {begin, before});
+      begin = after;
+    }
+    i = std::max(after, i + 1);
+  }
+  keep(t, lines, {begin, r.end});
+}
+
+double line_length(const LineSet& lines, const LineRange& r) {
+  double length = 0;
+  for (std::size_t i = r.begin + 1; i < r.end; ++i)
+    length +=
+        std::hypot(lines.points[i].x - lines.points[i - 1].x, lines.points[i].y - lines.points[i - 1].y);
+  return length;
+}
+
+double median_intensity(Trial& t, const LineSet& lines, const LineRange& r) {
+  t.w.scratch.clear();
+  for (std::size_t i = r.begin; i < r.end; ++i)
+    if ((lines.points[i].flags & kStripeBridged) == 0) t.w.scratch.push_back(lines.points[i].intensity);
+  return median_of(t.w.scratch);
+}
+
+/// Length and width tests, which need no other line; a short line has to be the more regular.
+bool is_stripe_like(Trial& t, const LineSet& lines, const LineRange& r) {
+  const double length = line_length(lines, r), width = median_width(t, lines, r);
+  if (length < t.options.min_length * t.full_width) return false;
+  std::size_t measured = 0;
+  for (std::size_t i = r.begin; i < r.end; ++i)
+    measured += (lines.points[i].flags & kStripeBridged) == 0 ? 1U : 0U;
+  if (2 * measured < r.size()) return false;
+  const double ratio = std::max(width, 1e-3) / t.full_width;
+  const double most =
+      length < 12 * t.full_width ? 0.75 * t.options.max_width_ratio : t.options.max_width_ratio;
+  return ratio < most && 1.0 / ratio < 1.5 * most;
+}
+
+/// What a strong stripe of this image looks like.
+struct Reference {
+  double intensity = 0;  ///< of the brightest line, short ones counting less
+  double width = 0;      ///< px, mean over the lines at least half as bright, weighted by their length
+};
+
+Reference strong_stripe(Trial& t, const LineSet& lines) {
+  const double full_length = 3 * t.options.min_length * t.full_width;
+  Reference reference;
+  for (const LineRange& r : lines.lines)
+    reference.intensity =
+        std::max(reference.intensity,
+                 median_intensity(t, lines, r) * std::min(1.0, line_length(lines, r) / full_length));
+  double sum = 0, weights = 0;
+  for (const LineRange& r : lines.lines) {
+    if (median_intensity(t, lines, r) < 0.5 * reference.intensity) continue;
+    sum += median_width(t, lines, r) * static_cast<double>(r.size());
+    weights += static_cast<double>(r.size());
+  }
+  reference.width = weights > 0 ? sum / weights : t.full_width;
+  return reference;
+}
+
+/// Share of points that were bridged or whose flanks differ: small on a stripe, large on stains and edges.
+double irregular_share(const LineSet& lines, const LineRange& r) {
+  std::size_t irregular = 0;
+  for (std::size_t i = r.begin; i < r.end; ++i)
+    irregular += (lines.points[i].flags & (kStripeBridged | kStripeAsymmetric)) != 0 ? 1U : 0U;
+  return static_cast<double>(irregular) / static_cast<double>(r.size());
+}
+
+/// Brightness against the strong lines: weak lines have to be regular and as wide as the strong ones.
+bool is_bright_enough(Trial& t, const LineSet& lines, const LineRange& r, const Reference& reference) {
+  const double intensity = median_intensity(t, lines, r), share = intensity / reference.intensity;
+  if (intensity < t.options.min_contrast_to_noise * t.noise || share < t.options.min_contrast) return false;
+  if (share > t.options.clear_contrast) return true;
+  const double ratio = median_width(t, lines, r) / reference.width;
+  return irregular_share(lines, r) < 0.2 && ratio > 0.65 && ratio < 1.5;
+}
+
+}  // namespace
+
+template <class T>
+void test_lines(ImageView<T> image, const DerivativeKernels& kernels, double noise,
+                const LineTestOptions& options, LineTestWorkspace& workspace, LineSet& lines) {
+  Trial trial{kernels, noise, options, workspace, 2 * std::numbers::sqrt3 * kernels.sigma};
+  measure_points(image, kernels, lines, workspace.contrast);
+  workspace.kept.clear();
+  for (const LineRange& r : lines.lines) mend_or_cut(trial, lines, r);
+  std::swap(lines, workspace.kept);
+  std::erase_if(lines.lines, [&](const LineRange& r) { return !is_stripe_like(trial, lines, r); });
+  const Reference reference = strong_stripe(trial, lines);
+  std::erase_if(lines.lines,
+                [&](const LineRange& r) { return !is_bright_enough(trial, lines, r, reference); });
+}
+
+template void test_lines<std::uint8_t>(ImageView8, const DerivativeKernels&, double, const LineTestOptions&,
+                                       LineTestWorkspace&, LineSet&);
+template void test_lines<std::uint16_t>(ImageView16, const DerivativeKernels&, double, const LineTestOptions&,
+                                        LineTestWorkspace&, LineSet&);
+
+}  // namespace lightstripe

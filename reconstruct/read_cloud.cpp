@@ -1,0 +1,76 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+#include <pcl/conversions.h>
+#include <pcl/io/pcd_io.h>
+#include <pcl/io/ply_io.h>
+
+#include <charconv>
+#include <fstream>
+#include <optional>
+#include <string_view>
+
+#include "core/error.h"
+#include "reconstruct/cloud.h"
+#include "reconstruct/cloud_header.h"
+#include "reconstruct/cloud_point_type.h"
+
+namespace lightstripe {
+namespace {
+
+std::string first_bytes(const std::filesystem::path& path, std::size_t count) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw Error(path.string(), "cannot be opened", "check the path and its permissions");
+  std::string bytes(count, '\0');
+  file.read(bytes.data(), static_cast<std::streamsize>(count));
+  bytes.resize(static_cast<std::size_t>(file.gcount()));
+  return bytes;
+}
+
+/// The number behind `key` at the start of a line.
+std::optional<std::int64_t> number_after(std::string_view header, std::string_view key) {
+  const std::size_t at = header.find(key);
+  if (at == std::string_view::npos) return std::nullopt;
+  const std::string_view digits = header.substr(at + key.size());
+  std::int64_t number = 0;
+  const auto parsed = std::from_chars(digits.data(), digits.data() + digits.size(), number);
+  if (parsed.ec != std::errc{} || number < 0 || number > kMaxCloudPoints) return std::nullopt;
+  return number;
+}
+
+/// PCL trusts the counts and types of a header; a wrong one must not reach it. So the header has to be, byte
+/// for byte, the one that CloudWriter gives to the number of points it names, and the file as long as that
+/// says. Returns that number.
+std::int64_t check_header(const std::filesystem::path& path, CloudFormat format) {
+  const std::string header = first_bytes(path, cloud_header(format, 0).size());
+  const auto num_points =
+      number_after(header, format == CloudFormat::kPly ? "\nelement vertex " : "\nPOINTS ");
+  if (!num_points || header != cloud_header(format, *num_points))
+    throw Error(path.string(), "its header is not that of a lightstripe cloud",
+                "reconstruct the cloud again");
+  const auto expected = header.size() + static_cast<std::uintmax_t>(*num_points) * sizeof(CloudPoint);
+  const auto found = std::filesystem::file_size(path);
+  if (found != expected)
+    throw Error(path.string(),
+                fmt::format("{} points need {} bytes but the file has {}", *num_points, expected, found),
+                "it was cut short or changed: reconstruct the cloud again");
+  return *num_points;
+}
+
+}  // namespace
+
+std::vector<CloudPoint> read_cloud(const std::filesystem::path& path) {
+  const CloudFormat format = cloud_format(path, path.string());
+  if (format == CloudFormat::kXyz)
+    throw Error(path.string(), "an .xyz file has no intensity, frame and sigma", "give a .ply or .pcd file");
+  if (check_header(path, format) == 0) return {};  // PCL would complain on stderr
+  pcl::PCLPointCloud2 fields;
+  const int result = format == CloudFormat::kPly ? pcl::PLYReader().read(path.string(), fields)
+                                                 : pcl::PCDReader().read(path.string(), fields);
+  if (result < 0) throw Error(path.string(), "PCL cannot read it", "reconstruct the cloud again");
+  pcl::PointCloud<CloudPoint> cloud;
+  pcl::fromPCLPointCloud2(fields, cloud);
+  return {cloud.points.begin(), cloud.points.end()};
+}
+
+}  // namespace lightstripe

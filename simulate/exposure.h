@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+// From light to a picture: reflections on the lens' way, shot noise, read noise, 8 bits.
+#pragma once
+
+#include <vector>
+
+#include "core/image.h"
+#include "core/random.h"
+#include "simulate/scene.h"
+
+namespace lightstripe {
+
+/// A bright ellipse with a soft rim.
+struct Blob {
+  double x = 0, y = 0;   ///< px, middle
+  double radius_px = 0;  ///< larger half axis
+  double flatness = 1;   ///< smaller half axis / larger
+  double angle = 0;      ///< of the larger axis against x, radians
+
+  /// 1 in the middle, 0.5 on the rim, falling over `edge_px` (logistic).
+  double cover(double px, double py, double edge_px) const;
+};
+
+/// As many as the plan wants, at places drawn from `random`.
+std::vector<Blob> draw_blobs(const Reflections& plan, int width, int height, Random random);
+
+void add_blobs(Image<float>& light, const std::vector<Blob>& blobs, const Reflections& plan);
+
+/// Noise of variance read_noise^2 + (level - dark) / electrons_per_level, rounding, clipping to 0 .. 255.
+/// Each row draws from its own stream.
+Image8 expose(const Image<float>& light, const Imaging& imaging, std::uint64_t seed, std::uint64_t stream);
+
+}  // namespace lightstripe

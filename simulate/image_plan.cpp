@@ -1,0 +1,78 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+#include "simulate/image_plan.h"
+
+#include <fmt/format.h>
+
+#include "io/nominal_outlines.h"
+#include "simulate/board_poses.h"
+#include "simulate/scene_world.h"
+
+namespace lightstripe {
+namespace {
+
+void add_image(ImagePlan& plan, std::string file, std::size_t sensor, const View& view, int frame) {
+  PlannedImage image{std::move(file), sensor, plan.worlds.size() - 1, view, frame};
+  image.view.sensor = &plan.sensors[sensor];
+  plan.images.push_back(image);
+}
+
+World with_board(const BoardPlan& boards, const Rigid3& pose) {
+  World world;
+  world.boards.push_back(make_board(boards, pose));
+  return world;
+}
+
+void plan_boards(const Scene& scene, ImagePlan& plan) {
+  plan.board_poses = draw_board_poses(scene, plan.sensors);
+  const bool pair = scene.boards.images == BoardImages::kPair;
+  const View first{
+      nullptr, {0, 0, 0}, pair ? scene.imaging.board_ambient : scene.imaging.single_ambient, !pair};
+  const View lit{nullptr, {0, 0, 0}, scene.imaging.laser_ambient, true};
+  for (int i = 0; i < scene.boards.count; ++i) {
+    plan.worlds.push_back(with_board(scene.boards, plan.board_poses[static_cast<std::size_t>(i)]));
+    for (std::size_t s = 0; s < plan.sensors.size(); ++s) {
+      const std::string folder = "calib/" + plan.sensors[s].name;
+      add_image(plan, folder + "/board/" + board_file(i), s, first, -1);
+      if (pair) add_image(plan, folder + "/laser/" + board_file(i), s, lit, -1);
+    }
+  }
+}
+
+void plan_motion(const Scene& scene, ImagePlan& plan) {
+  if (scene.motion.positions == 0) return;
+  plan.motion_board.push_back(draw_motion_board(scene, plan.sensors));
+  plan.worlds.push_back(with_board(scene.boards, plan.motion_board.front()));
+  const std::size_t sensor = motion_sensor(scene);
+  for (int i = 0; i < scene.motion.positions; ++i) {
+    const View view{nullptr, shift_at(scene, i * scene.motion.step_mm), scene.imaging.board_ambient, false};
+    add_image(plan, "calib/" + plan.sensors[sensor].name + "/travel/" + board_file(i), sensor, view, -1);
+  }
+}
+
+void plan_scan(const Scene& scene, ImagePlan& plan) {
+  plan.still_scan = same_in_all_frames(scene);
+  for (int i = 0; i < scene.scan.frames; ++i) {
+    if (i == 0 || !plan.still_scan) plan.worlds.push_back(scan_world(scene, plan.nominal_rail, i));
+    const View view{nullptr, shift_at(scene, travel_of(scene, i)), scene.imaging.scan_ambient, true};
+    for (std::size_t s = 0; s < plan.sensors.size(); ++s)
+      add_image(plan, "scan/" + plan.sensors[s].name + "/" + frame_file(i), s, view, i);
+  }
+}
+
+}  // namespace
+
+std::string board_file(int number) { return fmt::format("{:03}.png", number); }
+std::string frame_file(int number) { return fmt::format("{:04}.png", number); }
+
+ImagePlan plan_images(const Scene& scene) {
+  ImagePlan plan;
+  plan.sensors = make_sensors(scene);
+  if (scene.rail.present()) plan.nominal_rail = read_nominal(scene.rail.profile);
+  plan_boards(scene, plan);
+  plan_motion(scene, plan);
+  plan_scan(scene, plan);
+  return plan;
+}
+
+}  // namespace lightstripe

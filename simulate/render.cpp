@@ -1,0 +1,160 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+#include "simulate/render.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <opencv2/imgproc.hpp>
+
+namespace lightstripe {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+constexpr double kSheetReach = 5;  // sigmas; beyond, the laser adds less than a thousandth of a grey level
+constexpr double kAmbientFloor = 0.4;  // light that reaches a surface from everywhere
+constexpr float kSmooth = 0.2F;        // grey levels between neighbours that one ray a pixel can stand for
+
+/// Lambert and Phong for light of strength 1 from the unit direction `to_light`.
+double reflected(const SurfaceHit& hit, const Vector3d& to_light, const Vector3d& to_eye) {
+  const double incidence = hit.normal.dot(to_light);
+  if (incidence <= 0) return 0;
+  double level = hit.material.albedo * incidence;
+  if (hit.material.specular > 0) {
+    const double glance = (2 * incidence * hit.normal - to_light).dot(to_eye);
+    if (glance > 0) level += hit.material.specular * std::pow(glance, hit.material.shininess);
+  }
+  return level;
+}
+
+/// Even in the middle, 0 at the edge, as behind a Powell lens.
+double fan_profile(double angle, double half_fan) {
+  const double share = angle / half_fan;
+  return std::abs(share) >= 1 ? 0 : 1 - share * share * share * share;
+}
+
+/// Offsets from a pixel's centre: points in a quarter of the pixel and their turns by 90, 180 and 270
+/// degrees, so that odd moments and the mixed second moment vanish as they do for the pixel's area. Each
+/// offset along x and along y occurs once (a Hammersley set), which places upright and level edges to
+/// 1/samples px.
+std::vector<Vector2d> sample_pattern(int samples) {
+  if (samples == 1) return {Vector2d::Zero()};
+  std::vector<Vector2d> out;
+  const int n = samples / 4;
+  for (int i = 0; i < n; ++i) {
+    double mirrored_bits = 0, weight = 0.5;
+    for (int rest = i; rest > 0; rest /= 2, weight /= 2) mirrored_bits += weight * (rest % 2);
+    const double x = 0.5 * (i + 0.25) / n, y = 0.5 * (mirrored_bits + 0.75 / n);
+    for (const Vector2d& turned : {Vector2d(x, y), Vector2d(-y, x), Vector2d(-x, -y), Vector2d(y, -x)})
+      out.push_back(turned);
+  }
+  return out;
+}
+
+/// One ray a pixel over the whole grid.
+Image<float> render_centres(const World& world, const View& view, const RayGrid& rays,
+                            const Imaging& imaging) {
+  Image<float> out(rays.width, rays.height);
+  for (int y = 0; y < rays.height; ++y)
+    for (int x = 0; x < rays.width; ++x)
+      out(x, y) = static_cast<float>(shade(world, view, imaging, {view.eye(), rays.at(x, y)}));
+  return out;
+}
+
+bool changes_around(const Image<float>& image, int x, int y) {
+  float low = image(x, y), high = low;
+  for (int dy = -1; dy <= 1; ++dy)
+    for (int dx = -1; dx <= 1; ++dx) {
+      low = std::min(low, image(x + dx, y + dy));
+      high = std::max(high, image(x + dx, y + dy));
+    }
+  return high - low > kSmooth;
+}
+
+/// Grey levels between the means of two halves of the samples above which a sharp edge crosses the pixel.
+constexpr double kSharp = 1.5;
+
+/// What an exposure's rays need.
+struct Eyepiece {
+  const World& world;
+  const View& view;
+  const RayGrid& rays;
+  const Imaging& imaging;
+
+  double level(double x, double y) const {
+    return shade(world, view, imaging, {view.eye(), rays.between(x, y)});
+  }
+
+  /// Mean over the samples, and how far the means of every other four of them differ.
+  std::pair<double, double> mean(const std::vector<Vector2d>& pattern, int x, int y) const {
+    double halves[2] = {0, 0};
+    for (std::size_t i = 0; i < pattern.size(); ++i)
+      halves[i / 4 % 2] += level(x + pattern[i].x(), y + pattern[i].y());
+    const double n = static_cast<double>(pattern.size());
+    return {(halves[0] + halves[1]) / n, pattern.size() < 8 ? 0 : std::abs(halves[0] - halves[1]) / (n / 2)};
+  }
+};
+
+/// The mean over each pixel's area; pixels with sharp edges take four times the samples. The grid's outermost
+/// pixels stay as they are.
+Image<float> integrate_pixels(const Eyepiece& eye, const Image<float>& centres) {
+  const std::vector<Vector2d> pattern = sample_pattern(eye.imaging.samples);
+  const std::vector<Vector2d> fine = sample_pattern(4 * eye.imaging.samples);
+  Image<float> out = centres;
+  for (int y = 1; y + 1 < centres.height; ++y)
+    for (int x = 1; x + 1 < centres.width; ++x) {
+      if (!changes_around(centres, x, y)) continue;
+      const auto [level, contrast] = eye.mean(pattern, x, y);
+      out(x, y) = static_cast<float>(contrast > kSharp ? eye.mean(fine, x, y).first : level);
+    }
+  return out;
+}
+
+}  // namespace
+
+double laser_level(const World& world, const View& view, const Imaging& imaging, const Vector3d& p_world,
+                   const SurfaceHit& hit) {
+  const SimulatedSensor& sensor = *view.sensor;
+  const Vector3d p = p_world - view.shift;  // where the sensor's sheet stands at travel 0
+  const double off = sensor.sheet.signed_distance(p) / sensor.laser.thickness_sigma_mm;
+  if (std::abs(off) > kSheetReach) return 0;
+  const Vector3d to_source = sensor.source - p;
+  const double distance = to_source.norm();
+  const double angle = std::atan2(-to_source.dot(sensor.across), -to_source.dot(sensor.axis));
+  const double fan = fan_profile(angle, sensor.laser.fan_deg / 2 * std::numbers::pi / 180);
+  const double level = reflected(hit, to_source / distance, (view.eye() - p_world).normalized());
+  if (fan == 0 || level == 0 || blocked(world, sensor.source + view.shift, p_world)) return 0;
+  return imaging.exposure * sensor.laser.brightness * fan * sensor.reference_mm / distance *
+         std::exp(-0.5 * off * off) * level;
+}
+
+double shade(const World& world, const View& view, const Imaging& imaging, const Ray& ray) {
+  if (ray.direction.isZero()) return imaging.dark_level;  // beyond what the lens can see
+  const std::optional<SurfaceHit> hit = first_hit(world, ray);
+  if (!hit) return imaging.dark_level;
+  const double lamp = reflected(*hit, imaging.light.normalized(), -ray.direction.normalized());
+  const double ambient = view.ambient * (kAmbientFloor * hit->material.albedo + (1 - kAmbientFloor) * lamp);
+  const double laser = view.laser_on ? laser_level(world, view, imaging, ray.at(hit->s), *hit) : 0;
+  return imaging.dark_level + imaging.exposure * ambient + laser;
+}
+
+int blur_margin(const Imaging& imaging) { return static_cast<int>(std::ceil(4 * imaging.blur_sigma_px)); }
+
+Image<float> render(const World& world, const View& view, const RayGrid& rays, const Imaging& imaging) {
+  Image<float> sharp =
+      integrate_pixels({world, view, rays, imaging}, render_centres(world, view, rays, imaging));
+  cv::Mat light(rays.height, rays.width, CV_32F, sharp.pixels.data());
+  if (imaging.blur_sigma_px > 0) {
+    const int size = 2 * blur_margin(imaging) + 1;
+    cv::GaussianBlur(light, light, {size, size}, imaging.blur_sigma_px, 0, cv::BORDER_REPLICATE);
+  }
+  const Camera& camera = view.sensor->camera;
+  Image<float> out(camera.width, camera.height);
+  light({rays.margin, rays.margin, camera.width, camera.height})
+      .copyTo(cv::Mat(camera.height, camera.width, CV_32F, out.pixels.data()));
+  return out;
+}
+
+}  // namespace lightstripe

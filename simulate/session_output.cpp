@@ -1,0 +1,131 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+#include "simulate/session_output.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <set>
+
+#include "core/error.h"
+#include "io/atomic_file.h"
+#include "io/rig_file.h"
+#include "io/session_file.h"
+#include "io/yaml_binding.h"
+#include "simulate/board_poses.h"
+#include "simulate/scene_world.h"
+#include "simulate/truth_files.h"
+
+namespace lightstripe {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_numbered_png(const fs::path& file) {
+  const std::string stem = file.stem().string();
+  return file.extension() == ".png" && !stem.empty() &&
+         std::all_of(stem.begin(), stem.end(), [](char c) { return c >= '0' && c <= '9'; });
+}
+
+Session session_of(const Scene& scene, const ImagePlan& plan) {
+  Session session;
+  session.target = target_of(scene.boards);
+  session.up = up_hint(plan.sensors.front());
+  for (const SimulatedSensor& sensor : plan.sensors) {
+    SessionSensor entry;
+    entry.name = sensor.name;
+    entry.board = "calib/" + sensor.name + "/board/*.png";
+    if (scene.boards.images == BoardImages::kPair) entry.laser = "calib/" + sensor.name + "/laser/*.png";
+    session.sensors.push_back(entry);
+  }
+  if (scene.motion.positions == 0) return session;
+  const std::string& name = plan.sensors[motion_sensor(scene)].name;
+  session.motion = SessionMotion{MotionType::kLinear, name, "calib/" + name + "/travel/*.png",
+                                 "calib/travel.csv", scene.motion.moves == Moves::kRig};
+  return session;
+}
+
+Scan scan_of(const ImagePlan& plan) {
+  Scan scan;
+  scan.rig = "rig.yaml";
+  for (const SimulatedSensor& sensor : plan.sensors)
+    scan.frames.emplace_back(sensor.name, "scan/" + sensor.name + "/*.png");
+  scan.travel = TravelSource::kFile;
+  scan.travel_file = "scan/travel.csv";
+  return scan;
+}
+
+std::string motion_travel(const Scene& scene) {
+  std::string out = "image,travel_mm\n";
+  for (int i = 0; i < scene.motion.positions; ++i)
+    fmt::format_to(std::back_inserter(out), "{},{}\n", board_file(i), i * scene.motion.step_mm);
+  return out;
+}
+
+std::string scan_travel(const Scene& scene) {
+  std::string out = "frame,travel_mm\n";
+  for (int i = 0; i < scene.scan.frames; ++i)
+    fmt::format_to(std::back_inserter(out), "{},{}\n", i, travel_of(scene, i));
+  return out;
+}
+
+std::vector<NamedPose> true_poses(const ImagePlan& plan, const Rigid3& rig_from_world) {
+  std::vector<NamedPose> poses;
+  for (std::size_t i = 0; i < plan.board_poses.size(); ++i)
+    poses.push_back({fmt::format("{:03}", i), rig_from_world * plan.board_poses[i]});
+  for (const Rigid3& pose : plan.motion_board) poses.push_back({"travel", rig_from_world * pose});
+  return poses;
+}
+
+}  // namespace
+
+void make_folders(const ImagePlan& plan, const fs::path& output_folder) {
+  std::set<fs::path> folders, written;
+  for (const PlannedImage& image : plan.images) {
+    written.insert(output_folder / image.file);
+    folders.insert((output_folder / image.file).parent_path());
+  }
+  for (const fs::path& folder : folders) {
+    std::error_code failure;
+    fs::create_directories(folder, failure);
+    if (failure)
+      throw Error(folder.string(), "cannot be made: " + failure.message(), "choose another output folder");
+    std::vector<fs::path> stale;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder))
+      if (is_numbered_png(entry.path()) && written.count(entry.path()) == 0) stale.push_back(entry.path());
+    for (const fs::path& file : stale) fs::remove(file, failure);
+  }
+}
+
+void write_truth(const fs::path& folder, const Scene& scene, const ImagePlan& plan, const Rig& rig,
+                 const std::vector<std::string>& stripes) {
+  const Rigid3 to_rig = rig_from_world(rig, plan.sensors);
+  std::string rows(kStripeTruthHeader);
+  for (const std::string& part : stripes) rows += part;
+  write_file(folder / "stripes.csv", rows);
+  write_file(folder / "rig.yaml", rig_to_yaml(rig));
+  write_file(folder / "scene.yaml", dump_yaml(scene));
+  write_poses(folder / "poses.csv", true_poses(plan, to_rig));
+  write_sections(folder, scene, plan.nominal_rail, to_rig);
+  write_truth_readme(folder / "README.md");
+}
+
+SimulationSummary write_session(const fs::path& output_folder, const Scene& scene, const ImagePlan& plan) {
+  SimulationSummary summary;
+  summary.images = static_cast<int>(plan.images.size());
+  summary.truth = output_folder / "truth";
+  if (scene.motion.positions > 0) write_file(output_folder / "calib/travel.csv", motion_travel(scene));
+  if (scene.boards.count > 0) {
+    summary.session = output_folder / "calibration.yaml";
+    write_file(summary.session, session_to_yaml(session_of(scene, plan)));
+  }
+  if (scene.scan.frames > 0) {
+    write_file(output_folder / "scan/travel.csv", scan_travel(scene));
+    summary.scan = output_folder / "scan.yaml";
+    write_file(summary.scan, scan_to_yaml(scan_of(plan)));
+  }
+  return summary;
+}
+
+}  // namespace lightstripe

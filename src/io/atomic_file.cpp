@@ -1,0 +1,149 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+#include "io/atomic_file.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <string>
+#include <system_error>
+
+#include "core/error.h"
+
+namespace lightstripe {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string reason(int error_number) { return std::generic_category().message(error_number); }
+
+/// Closes on every way out; close() where its outcome matters.
+class Descriptor {
+ public:
+  explicit Descriptor(int number) : number_(number) {}
+  ~Descriptor() { close(); }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+
+  int get() const { return number_; }
+  bool close() {
+    const int number = number_;
+    number_ = -1;
+    return number < 0 || ::close(number) == 0;
+  }
+
+ private:
+  int number_;
+};
+
+/// The file behind a symbolic link, so that the link stays a link.
+fs::path followed(const fs::path& path) {
+  std::error_code error;
+  if (!fs::is_symlink(path, error)) return path;
+  const fs::path target = fs::canonical(path, error);
+  return error ? path : target;
+}
+
+void make_folder(const fs::path& folder, const fs::path& path) {
+  std::error_code error;
+  if (folder.empty() || fs::is_directory(folder, error)) return;
+  fs::create_directories(folder, error);
+  if (error) {
+    throw Error(path.string(),
+                fmt::format("cannot make the folder {} ({})", folder.string(), error.message()),
+                "name another place");
+  }
+}
+
+/// A new empty file beside `path`; hidden, so that no pattern over the folder sees it.
+fs::path create_beside(const fs::path& path) {
+  for (int attempt = 0;; ++attempt) {
+    const fs::path temporary =
+        path.parent_path() /
+        fmt::format(".{}.tmp-{}-{}{}", path.stem().string(), ::getpid(), attempt, path.extension().string());
+    const Descriptor created(::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
+    if (created.get() >= 0) return temporary;
+    if (errno != EEXIST || attempt == 10000)
+      throw Error(path.string(), fmt::format("cannot be written ({})", reason(errno)), "name another place");
+  }
+}
+
+}  // namespace
+
+AtomicFile::AtomicFile(const fs::path& path) : path_(followed(path)) {
+  std::error_code error;
+  const fs::file_status status = fs::status(path_, error);
+  if (path_.filename().empty() || fs::is_directory(status))
+    throw Error(path.string(), "is a folder", "name a file");
+  if (fs::exists(status) && !fs::is_regular_file(status)) {
+    temporary_ = path_;  // a device or pipe (/dev/stdout): nothing to rename
+    committed_ = true;
+    return;
+  }
+  make_folder(path_.parent_path(), path_);
+  temporary_ = create_beside(path_);
+}
+
+AtomicFile::~AtomicFile() {
+  std::error_code ignored;
+  if (!committed_) fs::remove(temporary_, ignored);
+}
+
+void AtomicFile::commit() {
+  if (committed_) return;
+  std::error_code error;
+  fs::rename(temporary_, path_, error);
+  if (error)
+    throw Error(path_.string(), fmt::format("cannot be written ({})", error.message()), "name another place");
+  committed_ = true;
+}
+
+void write_file(const fs::path& path, std::string_view text) {
+  AtomicFile file(path);
+  Descriptor out(::open(file.temporary().c_str(), O_WRONLY | O_TRUNC | O_CLOEXEC));
+  const auto give_up = [&path] {
+    throw Error(path.string(), fmt::format("cannot be written ({})", reason(errno)),
+                errno == ENOSPC ? "free some space" : "name another place");
+  };
+  if (out.get() < 0) give_up();
+  while (!text.empty()) {
+    const ssize_t written = ::write(out.get(), text.data(), text.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written <= 0) give_up();
+    text.remove_prefix(static_cast<std::size_t>(written));
+  }
+  if (!out.close()) give_up();
+  file.commit();
+}
+
+std::string read_file(const fs::path& path, std::size_t limit) {
+  const auto give_up = [&path](int error_number) {
+    throw Error(path.string(), fmt::format("cannot be read ({})", reason(error_number)), "check the path");
+  };
+  const Descriptor in(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  if (in.get() < 0) give_up(errno);
+  struct stat status {};
+  if (::fstat(in.get(), &status) != 0) give_up(errno);
+  if (S_ISDIR(status.st_mode)) throw Error(path.string(), "is a folder", "name a file");
+  std::string text;
+  text.reserve(std::min(static_cast<std::size_t>(status.st_size), limit));
+  std::array<char, std::size_t{1} << 16> part;
+  while (true) {
+    const ssize_t got = ::read(in.get(), part.data(), part.size());
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) give_up(errno);
+    if (got == 0) return text;
+    if (text.size() + static_cast<std::size_t>(got) > limit) {
+      throw Error(path.string(), fmt::format("is larger than the limit of {} bytes", limit),
+                  "check that it is the right file");
+    }
+    text.append(part.data(), static_cast<std::size_t>(got));
+  }
+}
+
+}  // namespace lightstripe

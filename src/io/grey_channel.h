@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+// Colour -> grey values by channel, inside src/io.
+#pragma once
+
+#include <opencv2/core/mat.hpp>
+#include <string>
+
+#include "io/images.h"
+
+namespace lightstripe {
+
+struct ChannelChoice {
+  Channel channel = Channel::kGray;
+  double peak =
+      0;  ///< how far the colour excess of the brightest pixels stands out, grey levels; 0 for grey pictures
+};
+
+/// What Channel::kAuto means for this picture (8-bit grey or BGR): the excess whose brightest pixels stand
+/// out most above its median; gray where none stands out.
+ChannelChoice strongest_channel(const cv::Mat& picture);
+
+/// The channel (not kAuto) of an 8-bit grey or BGR picture. An excess of a picture without colour is an Error
+/// naming `file`.
+Image8 grey_values(const cv::Mat& picture, Channel channel, const std::string& file);
+
+}  // namespace lightstripe

@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+// What the bytes of a picture file say about it before anything is decoded: format, size, whether all of it
+// is there.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace lightstripe {
+
+enum class ImageFormat { kUnknown, kPng, kJpeg, kTiff, kBmp, kPnm };
+
+struct ImageHeader {
+  ImageFormat format = ImageFormat::kUnknown;
+  std::int64_t width = 0;   ///< px, 0 where the header does not tell
+  std::int64_t height = 0;  ///< px
+  int max_value = 0;        ///< PNM: the grey value that is white; others 0
+  std::string
+      damage;  ///< why the file cannot be whole ("ends before ..."), empty if nothing speaks against it
+};
+
+/// Looks at the structure only: chunks and their checksums (PNG), segments to the end marker (JPEG),
+/// directory and strips (TIFF), payload (BMP, binary PNM).
+ImageHeader inspect_image(std::string_view bytes);
+
+}  // namespace lightstripe

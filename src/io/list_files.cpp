@@ -1,0 +1,119 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+// Files by pattern, in natural order.
+#include <algorithm>
+#include <system_error>
+
+#include "core/error.h"
+#include "io/images.h"
+
+namespace lightstripe {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kWildcards = "*?";
+
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+bool continues_character(char c) { return (static_cast<unsigned char>(c) & 0xc0U) == 0x80U; }  // UTF-8
+
+/// '*' = any text, '?' = one character. Greedy with one step back to the last '*': no exponential patterns.
+bool matches(std::string_view pattern, std::string_view name) {
+  std::size_t p = 0, n = 0, star = std::string_view::npos, star_at = 0;
+  while (n < name.size()) {
+    if (p < pattern.size() && pattern[p] == '*') {
+      star = p++;
+      star_at = n;
+    } else if (p < pattern.size() && pattern[p] == '?') {
+      ++p;
+      do {
+        ++n;
+      } while (n < name.size() && continues_character(name[n]));
+    } else if (p < pattern.size() && pattern[p] == name[n]) {
+      ++p;
+      ++n;
+    } else if (star != std::string_view::npos) {
+      p = star + 1;
+      n = ++star_at;
+    } else {
+      return false;
+    }
+  }
+  return pattern.find_first_not_of('*', p) == std::string_view::npos;
+}
+
+std::vector<fs::path> matching_files(const fs::path& folder, const std::string& pattern) {
+  std::vector<fs::path> found;
+  std::error_code error;
+  fs::directory_iterator entry(folder.empty() ? fs::path(".") : folder, error);
+  for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
+    const std::string name = entry->path().filename().string();
+    const bool hidden = name.front() == '.' && pattern.front() != '.';
+    std::error_code ignored;
+    if (!hidden && matches(pattern, name) && !entry->is_directory(ignored)) found.push_back(folder / name);
+  }
+  if (error)
+    throw Error(folder.string(), "cannot be read (" + error.message() + ")", "check its permissions");
+  return found;
+}
+
+}  // namespace
+
+bool natural_less(const std::string& a, const std::string& b) {
+  std::size_t i = 0, j = 0;
+  while (i < a.size() && j < b.size()) {
+    if (!is_digit(a[i]) || !is_digit(b[j])) {
+      if (a[i] != b[j]) return static_cast<unsigned char>(a[i]) < static_cast<unsigned char>(b[j]);
+      ++i;
+      ++j;
+      continue;
+    }
+    const auto number_at = [](const std::string& text, std::size_t& at) {
+      while (at < text.size() && text[at] == '0') ++at;
+      const std::size_t start = at;
+      while (at < text.size() && is_digit(text[at])) ++at;
+      return std::string_view(text).substr(start, at - start);
+    };
+    const std::string_view number_a = number_at(a, i), number_b = number_at(b, j);
+    if (number_a.size() != number_b.size()) return number_a.size() < number_b.size();
+    if (number_a != number_b) return number_a < number_b;
+  }
+  const std::size_t left_a = a.size() - i, left_b = b.size() - j;
+  return left_a != left_b ? left_a < left_b : a < b;  // "01" and "1": any order, but always the same
+}
+
+std::vector<fs::path> list_files(const fs::path& base, const std::string& pattern) {
+  const fs::path whole = base / pattern;
+  const fs::path folder = whole.parent_path();
+  const std::string name = whole.filename().string();
+  std::error_code error;
+  if (fs::path(pattern).parent_path().string().find_first_of(kWildcards) != std::string::npos)
+    throw Error(pattern, "has a * or ? in a folder's name",
+                "name one folder and use * in the file name only");
+  if (name.find_first_of(kWildcards) == std::string::npos) {
+    if (fs::is_directory(whole, error))
+      throw Error(whole.string(), "is a folder", "say which files, e.g. folder/*.png");
+    if (!fs::exists(whole, error)) throw Error(whole.string(), "no such file", "check the path");
+    return {whole};
+  }
+  if (!folder.empty() && !fs::is_directory(folder, error))
+    throw Error(folder.string(), "no such folder", "check the path");
+  std::vector<fs::path> files = matching_files(folder, name);
+  if (files.empty()) throw Error(whole.string(), "no file matches", "check the pattern");
+  std::sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
+    return natural_less(a.filename().string(), b.filename().string());
+  });
+  return files;
+}
+
+std::string matched_text(const std::string& pattern, const fs::path& file) {
+  const std::string wanted = fs::path(pattern).filename().string(), name = file.filename().string();
+  LIGHTSTRIPE_CHECK(matches(wanted, name), "the file matches the pattern");
+  const std::size_t first = wanted.find_first_of(kWildcards);
+  if (first == std::string::npos) return "";
+  const std::size_t behind = wanted.size() - 1 - wanted.find_last_of(kWildcards);
+  return name.substr(first, name.size() - first - behind);
+}
+
+}  // namespace lightstripe

@@ -1,0 +1,21 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+// Nominal outlines of rails and wheels: configs/profiles/*.yaml, also built into the program.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/outline.h"
+
+namespace lightstripe {
+
+/// A built-in outline by its name ("60E1"), or a file of the same format by its path (a text with a '/' or
+/// that ends in .yaml). Closed, counterclockwise, u lateral, v up, origin at the top of the rail, mm. An
+/// Error where there is none, segments do not join or an arc's ends differ in their distance from its centre.
+Outline read_nominal(const std::string& name_or_path);
+
+/// The names of the built-in outlines.
+std::vector<std::string> nominal_names();
+
+}  // namespace lightstripe

@@ -1,0 +1,93 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+#include "io/video_frames.h"
+
+#include <fmt/format.h>
+#include <map>
+#include <mutex>
+#include <opencv2/videoio.hpp>
+
+#include "core/error.h"
+#include "io/grey_channel.h"
+
+namespace lightstripe {
+namespace {
+
+constexpr std::size_t kMaxKept = 64;     // decoded frames that wait for a thread that is behind
+constexpr std::int64_t kSampleStep = 8;  // every so many frames are looked at until one decides the channel
+
+class VideoFrames : public FrameSource {
+ public:
+  VideoFrames(const std::filesystem::path& path, Channel channel) : path_(path), channel_(channel) {
+    rewind();
+    count_frames();
+    if (channel_ == Channel::kAuto) channel_ = Channel::kGray;
+    rewind();
+  }
+
+  std::int64_t size() const override { return size_; }
+  std::string name(std::int64_t index) const override {
+    return fmt::format("{}#{}", path_.filename().string(), index);
+  }
+
+  Image8 read(std::int64_t index) const override {
+    LIGHTSTRIPE_CHECK(index >= 0 && index < size_, "a frame of the sequence");
+    return grey_values(picture(index), channel_, path_.string());
+  }
+
+ private:
+  void rewind() const {
+    // Named, because the others (GStreamer, numbered images) take what is no video and talk on stderr.
+    const bool opened =
+        capture_.open(path_.string(), cv::CAP_FFMPEG) || capture_.open(path_.string(), cv::CAP_OPENCV_MJPEG);
+    if (!opened)
+      throw Error(path_.string(), "cannot be opened as a video", "check the file or convert it to images");
+    next_ = 0;
+    kept_.clear();
+  }
+
+  void count_frames() {
+    for (cv::Mat frame; capture_.grab(); ++size_) {
+      if (channel_ != Channel::kAuto || size_ % kSampleStep != 0 || !capture_.retrieve(frame)) continue;
+      const Channel chosen = strongest_channel(frame).channel;
+      if (chosen != Channel::kGray) channel_ = chosen;
+    }
+    if (size_ == 0) throw Error(path_.string(), "holds no frames", "check the file or convert it to images");
+  }
+
+  /// Frames are decoded strictly in order, because seeking is not exact in many formats; those that were
+  /// passed over are kept for the threads that ask for them next.
+  cv::Mat picture(std::int64_t index) const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (const auto found = kept_.find(index); found != kept_.end()) {
+      cv::Mat frame = found->second;
+      kept_.erase(found);
+      return frame;
+    }
+    if (index < next_) rewind();
+    while (true) {
+      cv::Mat frame;
+      if (!capture_.read(frame) || frame.depth() != CV_8U)
+        throw Error(name(next_), "cannot be decoded", "convert the video to images");
+      if (next_++ == index) return frame;
+      kept_.emplace(next_ - 1, std::move(frame));
+      if (kept_.size() > kMaxKept) kept_.erase(kept_.begin());
+    }
+  }
+
+  std::filesystem::path path_;
+  Channel channel_;
+  std::int64_t size_ = 0;
+  mutable std::mutex mutex_;
+  mutable cv::VideoCapture capture_;
+  mutable std::int64_t next_ = 0;
+  mutable std::map<std::int64_t, cv::Mat> kept_;
+};
+
+}  // namespace
+
+std::unique_ptr<FrameSource> open_video(const std::filesystem::path& path, Channel channel) {
+  return std::make_unique<VideoFrames>(path, channel);
+}
+
+}  // namespace lightstripe

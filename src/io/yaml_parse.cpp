@@ -1,0 +1,153 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+// yaml-cpp's events -> YamlNode.
+#include <yaml-cpp/eventhandler.h>
+#include <yaml-cpp/exceptions.h>
+#include <yaml-cpp/mark.h>
+#include <yaml-cpp/parser.h>
+
+#include <optional>
+#include <sstream>
+#include <unordered_map>
+
+#include "core/error.h"
+#include "io/atomic_file.h"
+#include "io/yaml_node.h"
+
+namespace lightstripe::detail {
+namespace {
+
+constexpr std::size_t kMaxFileBytes = std::size_t{16} << 20;
+constexpr std::size_t kMaxDepth = 64;
+constexpr const char* kCheckSyntax = "correct the YAML syntax there";
+
+/// A trouble found while the tree grows; the dotted key is not known yet.
+struct Refusal {
+  int line;
+  std::string what_is_wrong, what_to_do;
+};
+
+int line_of(const YAML::Mark& mark) { return mark.is_null() ? 0 : mark.line + 1; }
+
+class TreeBuilder : public YAML::EventHandler {
+ public:
+  YamlNode root;
+
+  void OnDocumentStart(const YAML::Mark&) override {}
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark& mark, YAML::anchor_t) override { add(YamlNode::Kind::kNull, mark, "", ""); }
+  void OnAlias(const YAML::Mark& mark, YAML::anchor_t) override {
+    throw Refusal{line_of(mark), "an alias (*name) is not supported",
+                  "write the part out, or put a text that begins with * in quotes"};
+  }
+  void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t,
+                const std::string& value) override {
+    add(YamlNode::Kind::kScalar, mark, tag, value);
+  }
+  void OnSequenceStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t,
+                       YAML::EmitterStyle::value) override {
+    open(YamlNode::Kind::kSequence, mark, tag);
+  }
+  void OnSequenceEnd() override { open_.pop_back(); }
+  void OnMapStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t,
+                  YAML::EmitterStyle::value) override {
+    open(YamlNode::Kind::kMap, mark, tag);
+  }
+  void OnMapEnd() override { open_.pop_back(); }
+
+ private:
+  struct Level {
+    YamlNode* node;  // stable: a parent's items do not grow while one of them is open
+    std::optional<YamlNode> key;
+  };
+  std::vector<Level> open_;
+
+  void open(YamlNode::Kind kind, const YAML::Mark& mark, const std::string& tag) {
+    if (open_.size() >= kMaxDepth)
+      throw Refusal{line_of(mark), "is nested deeper than " + std::to_string(kMaxDepth) + " levels",
+                    kCheckSyntax};
+    open_.push_back({add(kind, mark, tag, ""), std::nullopt});
+  }
+
+  YamlNode* add(YamlNode::Kind kind, const YAML::Mark& mark, const std::string& tag,
+                const std::string& value) {
+    if (!tag.empty() && tag != "?" && tag != "!")
+      throw Refusal{line_of(mark), "tags (!name) are not supported", "leave the tag out"};
+    YamlNode node;
+    node.kind = kind;
+    node.line = line_of(mark);
+    node.quoted = tag == "!";
+    node.text = value;
+    if (kind == YamlNode::Kind::kScalar && !node.quoted && (value.empty() || value == "null" || value == "~"))
+      node.kind = YamlNode::Kind::kNull;
+    if (open_.empty()) return &(root = std::move(node));
+    return add_to(open_.back(), std::move(node));
+  }
+
+  static YamlNode* add_to(Level& level, YamlNode node) {
+    if (level.node->kind == YamlNode::Kind::kMap && !level.key) {
+      if (node.kind != YamlNode::Kind::kScalar)
+        throw Refusal{node.line, "a key has to be a text", kCheckSyntax};
+      level.key = std::move(node);
+      return nullptr;
+    }
+    if (level.key) {
+      node.key = level.key->text;
+      node.line = level.key->line;
+      level.key.reset();
+    }
+    level.node->items.push_back(std::move(node));
+    return &level.node->items.back();
+  }
+};
+
+void check_repeated_keys(const YamlNode& node, const YamlPlace& place) {
+  const bool is_map = node.kind == YamlNode::Kind::kMap;
+  std::unordered_map<std::string_view, int> line_of_key;
+  for (std::size_t i = 0; i < node.items.size(); ++i) {
+    const YamlNode& item = node.items[i];
+    const YamlPlace at = is_map ? place.child(item.key) : place.item(i);
+    if (is_map) {
+      const auto [first, is_new] = line_of_key.emplace(item.key, item.line);
+      if (!is_new) {
+        fail_at(at, item.line, "given twice, first in line " + std::to_string(first->second),
+                "keep one of the two");
+      }
+    }
+    if (!item.items.empty()) check_repeated_keys(item, at);
+  }
+}
+
+[[noreturn]] void fail_syntax(const YamlPlace& place, const YAML::Exception& error) {
+  const bool looks_like_pattern = error.msg.find("alias") != std::string::npos ||
+                                  error.msg.find("referenced anchor") != std::string::npos;
+  fail_at(place, line_of(error.mark), "is not valid YAML (" + error.msg + ")",
+          looks_like_pattern ? "put a text that begins with * in quotes" : kCheckSyntax);
+}
+
+}  // namespace
+
+YamlNode parse_yaml(const std::string& text, const YamlPlace& place) {
+  if (text.find('\0') != std::string::npos)
+    fail_at(place, 0, "is not a text file in UTF-8", "check the path");
+  TreeBuilder tree, beyond;
+  try {
+    std::istringstream stream(text);
+    YAML::Parser parser(stream);
+    if (!parser.HandleNextDocument(tree))
+      fail_at(place, 0, "is empty", "fill it in, see configs/ for examples");
+    if (parser.HandleNextDocument(beyond)) fail_at(place, 0, "holds more than one YAML document", "keep one");
+  } catch (const YAML::Exception& error) {
+    fail_syntax(place, error);
+  } catch (const Refusal& refusal) {
+    fail_at(place, refusal.line, refusal.what_is_wrong, refusal.what_to_do);
+  }
+  check_repeated_keys(tree.root, place);
+  return std::move(tree.root);
+}
+
+YamlNode parse_yaml_file(const std::filesystem::path& path) {
+  return parse_yaml(read_file(path, kMaxFileBytes), {path.string(), ""});
+}
+
+}  // namespace lightstripe::detail

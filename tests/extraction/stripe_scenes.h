@@ -1,0 +1,209 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+// Analytic stripes on analytic backgrounds, with known centres: what the tests of extraction look at.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "core/image.h"
+#include "core/random.h"
+#include "core/stripe.h"
+
+namespace lightstripe::scenes {
+
+/// A sample of a stripe's true centre line; samples of one curve lie at most 0.25 px apart.
+struct CurvePoint {
+  double x = 0, y = 0;
+  double peak = 100;  ///< grey levels
+  double sigma = 2;   ///< px, standard deviation across
+};
+using Curve = std::vector<CurvePoint>;
+
+/// x = fx(u), y = fy(u), u in [0, 1]; peak and sigma by position as well.
+inline Curve make_curve(const std::function<CurvePoint(double)>& at, int samples = 6000) {
+  Curve curve;
+  for (int i = 0; i < samples; ++i) curve.push_back(at(static_cast<double>(i) / (samples - 1)));
+  return curve;
+}
+
+inline Curve make_line(double x0, double y0, double x1, double y1, double peak, double sigma) {
+  return make_curve([=](double u) {
+    return CurvePoint{x0 + u * (x1 - x0), y0 + u * (y1 - y0), peak, sigma};
+  });
+}
+
+/// Grey values before noise: linear light, not clipped.
+struct Canvas {
+  Image<double> grey;
+
+  Canvas(int width, int height, double background) : grey(width, height, background) {}
+
+  /// 1 inside a curve's ends, 0 beyond, 0.5 at them.
+  static double lit(const Curve& curve, double x, double y) {
+    const auto inside = [&](const CurvePoint& end, const CurvePoint& further_in) {
+      const double dx = further_in.x - end.x, dy = further_in.y - end.y;
+      if (std::hypot(x - end.x, y - end.y) > 30) return 1.0;
+      return 0.5 *
+             std::erfc(-((x - end.x) * dx + (y - end.y) * dy) / std::hypot(dx, dy) / (0.8 * std::sqrt(2.0)));
+    };
+    return inside(curve.front(), curve[1]) * inside(curve.back(), curve[curve.size() - 2]);
+  }
+
+  /// Adds a stripe with a Gaussian profile over the distance to its curve (segment by segment, exact).
+  void add(const Curve& curve) {
+    Image<double> nearest(grey.width, grey.height, 1e18);
+    Image<double> value(grey.width, grey.height, 0.0);
+    for (std::size_t i = 0; i + 1 < curve.size(); ++i) {
+      const CurvePoint &a = curve[i], &b = curve[i + 1];
+      const int reach = static_cast<int>(6 * a.sigma) + 2;
+      const int x0 = std::max(0, static_cast<int>(a.x) - reach),
+                x1 = std::min(grey.width - 1, static_cast<int>(a.x) + reach);
+      const int y0 = std::max(0, static_cast<int>(a.y) - reach),
+                y1 = std::min(grey.height - 1, static_cast<int>(a.y) + reach);
+      const double dx = b.x - a.x, dy = b.y - a.y, length2 = std::max(dx * dx + dy * dy, 1e-12);
+      for (int y = y0; y <= y1; ++y)
+        for (int x = x0; x <= x1; ++x) {
+          const double along = ((x - a.x) * dx + (y - a.y) * dy) / length2;
+          // The stripe ends like an edge that the lens blurs by 0.8 px, not like a round cap of its own
+          // width.
+          const bool over_end = (i == 0 && along < 0) || (i + 2 == curve.size() && along > 1);
+          const double t = over_end ? along : std::clamp(along, 0.0, 1.0);
+          const double ex = x - a.x - t * dx, ey = y - a.y - t * dy, d2 = ex * ex + ey * ey;
+          if (d2 >= nearest(x, y)) continue;
+          nearest(x, y) = d2;
+          value(x, y) = a.peak * std::exp(-0.5 * d2 / (a.sigma * a.sigma)) * lit(curve, x, y);
+        }
+    }
+    for (std::size_t i = 0; i < grey.pixels.size(); ++i) grey.pixels[i] += value.pixels[i];
+  }
+
+  /// A bright ellipse with soft edges (0.7 px).
+  void add_blob(double x, double y, double radius_a, double radius_b, double angle, double peak) {
+    for (int v = 0; v < grey.height; ++v)
+      for (int u = 0; u < grey.width; ++u) {
+        const double c = std::cos(angle), s = std::sin(angle);
+        const double p = ((u - x) * c + (v - y) * s) / radius_a, q = (-(u - x) * s + (v - y) * c) / radius_b;
+        const double distance = (std::sqrt(p * p + q * q) - 1) * std::min(radius_a, radius_b);
+        grey(u, v) += peak * 0.5 * std::erfc(distance / 1.0);
+      }
+  }
+
+  /// 8-bit pixels with read noise and shot noise (variance = gain * grey), clipped.
+  Image8 exposed(double read_noise, double shot_gain, std::uint64_t seed) const {
+    Image8 out(grey.width, grey.height);
+    Random random(seed);
+    for (std::size_t i = 0; i < grey.pixels.size(); ++i) {
+      const double level = grey.pixels[i];
+      const double noise = std::sqrt(read_noise * read_noise + shot_gain * std::max(level, 0.0));
+      const double noisy = noise > 0 ? level + noise * random.gaussian() : level;
+      out.pixels[i] = static_cast<std::uint8_t>(std::clamp(std::lround(noisy), 0L, 255L));
+    }
+    return out;
+  }
+};
+
+/// How well extracted stripes cover known curves.
+struct Score {
+  double completeness = 0;  ///< share of the curve samples with a point within `near` px
+  int points = 0;
+  int false_points = 0;  ///< farther than `far` px from every curve
+  double rms_px = 0;     ///< of the near points' distances to their curve
+};
+
+/// Distance to the nearest segment of the curves.
+inline double distance_to(const std::vector<Curve>& curves, double x, double y) {
+  double best = 1e18;
+  for (const Curve& curve : curves)
+    for (std::size_t i = 0; i + 1 < curve.size(); ++i) {
+      const CurvePoint &a = curve[i], &b = curve[i + 1];
+      if (std::abs(a.x - x) > 40 || std::abs(a.y - y) > 40) continue;
+      const double dx = b.x - a.x, dy = b.y - a.y, length2 = std::max(dx * dx + dy * dy, 1e-12);
+      const double t = std::clamp(((x - a.x) * dx + (y - a.y) * dy) / length2, 0.0, 1.0);
+      best = std::min(best, std::hypot(x - a.x - t * dx, y - a.y - t * dy));
+    }
+  return best;
+}
+
+inline Score score(const std::vector<Curve>& curves, const std::vector<Stripe>& stripes, double near = 1.5,
+                   double far = 2.0) {
+  Score s;
+  double sum = 0;
+  int used = 0;
+  for (const Stripe& stripe : stripes)
+    for (const StripePoint& p : stripe.points) {
+      const double d = distance_to(curves, p.x, p.y);
+      ++s.points;
+      if (d > far) ++s.false_points;
+      if (d > near) continue;
+      sum += d * d;
+      ++used;
+    }
+  s.rms_px = used > 0 ? std::sqrt(sum / used) : 0;
+  std::size_t covered = 0, total = 0;
+  for (const Curve& curve : curves)
+    for (std::size_t i = 0; i < curve.size(); i += 4) {
+      ++total;
+      bool found = false;
+      for (const Stripe& stripe : stripes) {
+        for (const StripePoint& p : stripe.points)
+          if (std::abs(p.x - curve[i].x) <= near && std::abs(p.y - curve[i].y) <= near &&
+              std::hypot(p.x - curve[i].x, p.y - curve[i].y) <= near) {
+            found = true;
+            break;
+          }
+        if (found) break;
+      }
+      covered += found ? 1U : 0U;
+    }
+  s.completeness = total > 0 ? static_cast<double>(covered) / static_cast<double>(total) : 0;
+  return s;
+}
+
+struct Scene {
+  Canvas canvas;
+  std::vector<Curve> truth;
+};
+
+/// The paper's four kinds of scene, rebuilt: two lines on a wheel, crossed lines on a plate, three on a pipe,
+/// five on a rail.
+inline Scene paper_scene(int kind, double sigma = 3.0) {
+  Scene scene{Canvas(960, 700, 4.0), {}};
+  const auto add = [&](const std::function<CurvePoint(double)>& at) {
+    scene.truth.push_back(make_curve(at));
+  };
+  if (kind == 0) {
+    for (const double y : {220.0, 450.0})
+      add([=](double u) {
+        const double x = 60 + 840 * u;
+        return CurvePoint{x, y - 90 * std::exp(-std::pow((x - 330) / 60, 2)) + 40 * u * u,
+                          90 + 70 * std::sin(7 * u), sigma};
+      });
+    scene.canvas.add_blob(600, 330, 14, 9, 0.5, 400);
+    scene.canvas.add_blob(250, 560, 7, 7, 0, 400);
+  } else if (kind == 1) {
+    add([=](double u) { return CurvePoint{80 + 800 * u, 120 + 450 * u, 150, sigma}; });
+    add([=](double u) { return CurvePoint{870 - 780 * u, 90 + 500 * u, 130, sigma}; });
+  } else if (kind == 2) {
+    for (const double y : {180.0, 340.0, 500.0})
+      add([=](double u) {
+        const double x = 100 + 760 * u, c = (x - 480) / 420;
+        return CurvePoint{x, y + 120 * (1 - std::sqrt(1 - 0.8 * c * c)), 170 * (1 - 0.7 * c * c), sigma};
+      });
+  } else {
+    for (int k = 0; k < 5; ++k)
+      add([=](double u) {
+        const double y = 40 + 620 * u, bend = 1 / (1 + std::exp(-(y - 300) / 18));
+        return CurvePoint{130 + 150 * k + 70 * bend + 20 * std::sin(3 * u + k), y,
+                          60 + 25 * k + 40 * std::cos(9 * u), sigma};
+      });
+    scene.canvas.add_blob(60, 80, 18, 6, 0.3, 300);
+  }
+  for (const Curve& curve : scene.truth) scene.canvas.add(curve);
+  return scene;
+}
+
+}  // namespace lightstripe::scenes

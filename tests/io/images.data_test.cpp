@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+// Real pictures beside the project's folder; left out where they are not there.
+#include <gtest/gtest.h>
+
+#include "io/images.h"
+
+namespace lightstripe {
+namespace {
+
+const std::filesystem::path kData = std::filesystem::path(LIGHTSTRIPE_SOURCE_DIR) / "../shared/data";
+
+Channel chosen_for(const std::string& name) {
+  Channel chosen = Channel::kAuto;
+  read_image(kData / name, Channel::kAuto, &chosen);
+  return chosen;
+}
+
+TEST(ChannelAuto, TakesRedExcessOfEveryRealRedLine) {
+  if (!std::filesystem::exists(kData / "pot")) GTEST_SKIP() << "no ../shared/data/pot";
+  for (const char* pattern : {"pot/board/*.png", "pot/scan/*.png", "stripes/hub_*.png"})
+    for (const auto& file : list_files(kData, pattern))
+      EXPECT_EQ(enum_name(chosen_for(std::filesystem::relative(file, kData).string())), "red-excess") << file;
+}
+
+TEST(FrameSource, OpensARealScan) {
+  if (!std::filesystem::exists(kData / "pot")) GTEST_SKIP() << "no ../shared/data/pot";
+  const auto frames = open_frames(kData, "pot/scan/*.png", Channel::kAuto);
+  ASSERT_EQ(frames->size(), 36);
+  EXPECT_EQ(frames->name(35), "035.png");
+  const Image8 image = frames->read(35);
+  EXPECT_EQ(image.width, 1152);
+  EXPECT_EQ(image.height, 768);
+}
+
+}  // namespace
+}  // namespace lightstripe

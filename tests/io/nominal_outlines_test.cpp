@@ -1,0 +1,118 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+#include "io/nominal_outlines.h"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "core/error.h"
+
+namespace lightstripe {
+namespace {
+
+namespace fs = std::filesystem;
+using Eigen::Vector2d;
+using ::testing::Contains;
+using ::testing::HasSubstr;
+
+double width_at(const Outline& outline, double v) {
+  const auto left = first_hit(outline, {-1000, v}, {1, 0}, 0),
+             right = first_hit(outline, {1000, v}, {-1, 0}, 0);
+  return 2000 - left->s - right->s;
+}
+
+std::string message_of(const std::string& name) {
+  try {
+    read_nominal(name);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+fs::path written(const std::string& name, const std::string& text) {
+  const fs::path path = fs::temp_directory_path() / ("lightstripe_" + name);
+  std::ofstream(path) << text;
+  return path;
+}
+
+// Published for 60E1 (EN 13674-1): 76.70 cm2, Ix 3038 cm4, Iy 512.3 cm4, centroid 80.9 above the base; each
+// to its last digit.
+TEST(Nominal60E1, HasThePublishedSectionProperties) {
+  const SectionProperties section = section_properties(read_nominal("60E1"));
+  EXPECT_NEAR(section.area / 1e2, 76.70, 0.005);
+  EXPECT_NEAR(section.inertia_u / 1e4, 3038, 0.5);
+  EXPECT_NEAR(section.inertia_v / 1e4, 512.3, 0.05);
+  EXPECT_NEAR(section.centroid.y() + 172, 80.9, 0.05);
+  EXPECT_NEAR(section.centroid.x(), 0, 1e-9);
+}
+
+TEST(Nominal60E1, HasThePublishedWidthsAndHeight) {
+  const Outline rail = read_nominal("60E1");
+  EXPECT_NEAR(width_at(rail, -14.0), 71.963, 0.0005);
+  EXPECT_NEAR(width_at(rail, -14.3), 72.00, 0.001);
+  EXPECT_NEAR(width_at(rail, -15.875), 72.157, 0.001);
+  EXPECT_NEAR(width_at(rail, -95.0), 16.5, 1e-6);
+  EXPECT_NEAR(width_at(rail, -165.0), 150, 1e-6);
+  EXPECT_NEAR(first_hit(rail, {0, 10}, {0, -1}, 0)->s, 10, 1e-5);
+  EXPECT_NEAR(first_hit(rail, {0, -200}, {0, 1}, 0)->s, 28, 1e-5);
+}
+
+TEST(Nominal60E1, RunsSmoothlyThroughTheHeadsTangentPoints) {
+  const Outline rail = read_nominal("60E1");
+  // The left half's crown, shoulder, corner and face follow each other first; 1e-5 mm of rounding on R13 is
+  // 1e-6 rad.
+  for (std::size_t i = 0; i < 3; ++i)
+    EXPECT_NEAR((normal_at(rail.segments[i], 1) - normal_at(rail.segments[i + 1], 0)).norm(), 0, 1e-5) << i;
+}
+
+// Rounding of the table: 1e-5 mm in the tangent points, 1e-5 in each sample.
+TEST(Nominal60E1, AgreesWithTheReferenceContour) {
+  std::ifstream file("/work/shared/reference/60E1_full_0p25mm.csv");
+  if (!file) GTEST_SKIP() << "reference contour not present";
+  const Outline rail = read_nominal("60E1");
+  std::string line;
+  int points = 0;
+  double worst = 0;
+  while (std::getline(file, line)) {
+    Vector2d p;
+    char comma = 0;
+    if (!(std::istringstream(line) >> p.x() >> comma >> p.y())) continue;
+    worst = std::max(worst, closest_point(rail, p).distance);
+    ++points;
+  }
+  EXPECT_GT(points, 2000);
+  EXPECT_LT(worst, 5e-5);
+}
+
+TEST(NominalOutlines, UnknownNameListsTheBuiltInOnes) {
+  EXPECT_THAT(nominal_names(), Contains("60E1"));
+  EXPECT_THAT(message_of("61E1"), HasSubstr("60E1"));
+}
+
+TEST(NominalOutlines, FileAndBuiltInOutlineAreTheSame) {
+  const Outline built_in = read_nominal("60E1");
+  const Outline file = read_nominal(std::string(LIGHTSTRIPE_SOURCE_DIR) + "/configs/profiles/60E1.yaml");
+  ASSERT_EQ(built_in.segments.size(), file.segments.size());
+  for (std::size_t i = 0; i < file.segments.size(); ++i)
+    EXPECT_EQ(built_in.segments[i].to, file.segments[i].to);
+}
+
+TEST(NominalOutlines, BadFilesAreRefusedWithFileAndEntry) {
+  const std::string head = "format: lightstripe-outline/1\nstart: [0, 0]\nsegments:\n";
+  const fs::path open = written("open.yaml", head + "  - {to: [1, 0]}\n  - {to: [1, 1]}\n");
+  EXPECT_THAT(message_of(open.string()), HasSubstr("do not close"));
+  const fs::path arc =
+      written("arc.yaml", head + "  - {to: [1, 0]}\n  - {to: [2, 2], center: [1, 1]}\n  - {to: [0, 0]}\n");
+  EXPECT_THAT(message_of(arc.string()), HasSubstr("segments.1: the arc's ends differ"));
+  const fs::path format =
+      written("format.yaml", "format: outline\nstart: [0, 0]\nsegments: [{to: [1, 1]}]\n");
+  EXPECT_THAT(message_of(format.string()), HasSubstr("lightstripe-outline/1"));
+}
+
+}  // namespace
+}  // namespace lightstripe

@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reconstruct/laser_lines.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace lightstripe {
+namespace {
+
+using Eigen::Vector3d;
+using testing::ElementsAre;
+using testing::Optional;
+
+const Camera kCamera{640, 480, 1000, 1000, 320, 240, {}};
+
+Sensor sensor_with(const std::vector<Plane>& planes) { return {"gauge", kCamera, planes, {}}; }
+
+// An upright stripe at this column (a level one at this row).
+Stripe upright(double x) { return {{{.x = x, .y = 100, .normal_x = 1}, {.x = x, .y = 300, .normal_x = 1}}}; }
+Stripe level(double y) { return {{{.x = 100, .y = y, .normal_y = 1}, {.x = 300, .y = y, .normal_y = 1}}}; }
+
+TEST(AssignLaserPlanes, OnePlaneOwnsAllStripes) {
+  const auto sensor = sensor_with({{Vector3d::UnitX(), 100}});
+  EXPECT_THAT(assign_laser_planes({upright(500), upright(520), upright(400)}, sensor),
+              Optional(ElementsAre(0, 0, 0)));
+  EXPECT_THAT(assign_laser_planes({}, sensor), Optional(ElementsAre()));
+}
+
+TEST(AssignLaserPlanes, ParallelSheetsAreOrderedLeftToRight) {
+  // Sheets x = 140, 100, 120 mm on a wall at z = 500 mm: columns 600, 520, 560.
+  const auto sensor =
+      sensor_with({{Vector3d::UnitX(), 140}, {Vector3d::UnitX(), 100}, {Vector3d::UnitX(), 120}});
+  EXPECT_THAT(assign_laser_planes({upright(520), upright(560), upright(600)}, sensor),
+              Optional(ElementsAre(1, 2, 0)));
+  EXPECT_THAT(assign_laser_planes({upright(600), upright(520), upright(560)}, sensor),
+              Optional(ElementsAre(0, 1, 2)));
+}
+
+TEST(AssignLaserPlanes, SheetsOnBothSidesOfTheCameraAreOrdered) {
+  // x = 50 and x = -50 (as n.X = d with d > 0) at z = 500: columns 420 and 220.
+  const auto sensor = sensor_with({{Vector3d::UnitX(), 50}, {-Vector3d::UnitX(), 50}});
+  EXPECT_THAT(assign_laser_planes({upright(220), upright(420)}, sensor), Optional(ElementsAre(1, 0)));
+}
+
+TEST(AssignLaserPlanes, LevelLinesAreOrderedTopToBottom) {
+  const auto sensor = sensor_with({{Vector3d::UnitY(), 40}, {Vector3d::UnitY(), 20}});
+  EXPECT_THAT(assign_laser_planes({level(320), level(280)}, sensor), Optional(ElementsAre(0, 1)));
+}
+
+TEST(AssignLaserPlanes, FanFromOneSourceOnASteppedSurfaceIsOrdered) {
+  // Laser at (200, 0, 0), two sheets aimed at x = 0 for z = 400 and z = 500; stripes where they meet z = 450,
+  // 470.
+  const auto sheet = [](double z) { return canonical({{z, 0, 200}, 200 * z}); };
+  const auto sensor = sensor_with({sheet(400), sheet(500)});
+  const auto column = [](double aim, double z) { return 320 + 1000 * (200 - 200 * z / aim) / z; };
+  EXPECT_THAT(assign_laser_planes({upright(column(400, 450)), upright(column(500, 470))}, sensor),
+              Optional(ElementsAre(0, 1)));
+  EXPECT_THAT(assign_laser_planes({upright(column(500, 450)), upright(column(400, 470))}, sensor),
+              Optional(ElementsAre(1, 0)));
+}
+
+TEST(AssignLaserPlanes, AnotherNumberOfStripesIsNotGuessed) {
+  const auto sensor = sensor_with({{Vector3d::UnitX(), 100}, {Vector3d::UnitX(), 140}});
+  EXPECT_FALSE(assign_laser_planes({upright(520)}, sensor));
+  EXPECT_FALSE(assign_laser_planes({upright(520), upright(530), upright(600)}, sensor));
+  EXPECT_FALSE(assign_laser_planes({upright(520), Stripe{}}, sensor));
+}
+
+TEST(AssignLaserPlanes, CrossedPlanesHaveNoOrder) {
+  const auto sensor = sensor_with({{Vector3d::UnitX(), 100}, {Vector3d::UnitY(), 100}});
+  EXPECT_FALSE(assign_laser_planes({upright(520), level(440)}, sensor));
+}
+
+TEST(AssignLaserPlanes, SensorWithoutPlanesAssignsNothing) {
+  EXPECT_FALSE(assign_laser_planes({upright(520)}, sensor_with({})));
+}
+
+}  // namespace
+}  // namespace lightstripe

@@ -1,0 +1,252 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reconstruct/scanner.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <bit>
+#include <chrono>
+#include <thread>
+
+#include "core/error.h"
+#include "core/random.h"
+
+namespace lightstripe {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr int kFrames = 120;
+
+Rig two_sensor_rig() {
+  Rig rig;
+  const Camera camera{32, 24, 1000, 1000, 16, 12, {-0.1}};
+  rig.sensors.push_back({"gauge", camera, {canonical({{0.8, 0.1, 0.6}, 300})}, {}});
+  rig.sensors.push_back(
+      {"field", camera, {canonical({{0.7, -0.2, 0.6}, 310})}, {Eigen::Quaterniond(0, 0, 1, 0), {0, 90, 0}}});
+  rig.motion.type = MotionType::kLinear;
+  return rig;
+}
+
+// A picture that names its frame and sensor.
+Image8 numbered_image(std::int64_t frame, int sensor) {
+  Image8 image(32, 24, 0);
+  image(0, 0) = static_cast<std::uint8_t>(frame);
+  image(1, 0) = static_cast<std::uint8_t>(sensor);
+  return image;
+}
+
+// In place of the extraction: points that depend on the picture only, after a time that depends on it too, so
+// that frames overtake each other.
+std::vector<Stripe> stripes_of_numbered_image(ImageView8 image) {
+  Random random(image(0, 0), image(1, 0));
+  std::this_thread::sleep_for(std::chrono::microseconds(random.bits() % 300));
+  Stripe stripe;
+  for (int i = 0; i < 5; ++i)
+    stripe.points.push_back({.x = random.uniform(0, 32),
+                             .y = random.uniform(0, 24),
+                             .normal_x = 1,
+                             .sigma_px = 0.1,
+                             .intensity = static_cast<float>(image(0, 0))});
+  return {stripe};
+}
+
+ScanInput numbered_input() {
+  ScanInput input;
+  input.num_frames = kFrames;
+  input.read = [](std::int64_t frame, int sensor) { return numbered_image(frame, sensor); };
+  input.position = [](std::int64_t frame) { return FramePosition{2.0 * static_cast<double>(frame), {}}; };
+  return input;
+}
+
+std::vector<Profile> scan(const ScanInput& input, int threads, ScanSummary* summary = nullptr) {
+  std::vector<Profile> profiles;
+  const auto result = scan_profiles(input, two_sensor_rig(), StripeExtractor(stripes_of_numbered_image),
+                                    threads, [&](const Profile& profile) { profiles.push_back(profile); });
+  if (summary) *summary = result;
+  return profiles;
+}
+
+TEST(ScanProfiles, FramesComeInOrderWithSensorsInTheRigsOrder) {
+  ScanSummary summary;
+  const auto profiles = scan(numbered_input(), 4, &summary);
+  ASSERT_EQ(profiles.size(), kFrames);
+  for (std::size_t f = 0; f < kFrames; ++f) {
+    EXPECT_EQ(profiles[f].frame, static_cast<std::int64_t>(f));
+    EXPECT_EQ(profiles[f].travel, 2.0 * static_cast<double>(f));
+    ASSERT_EQ(profiles[f].points.size(), 10u);
+    for (std::size_t i = 0; i < 10; ++i) {
+      EXPECT_EQ(profiles[f].points[i].sensor, i < 5 ? 0 : 1);
+      EXPECT_EQ(profiles[f].points[i].intensity, static_cast<float>(f));
+    }
+  }
+  EXPECT_EQ(summary.frames, kFrames);
+  EXPECT_EQ(summary.points, 10 * kFrames);
+  EXPECT_EQ(summary.frames_without_points, 0);
+  EXPECT_FALSE(summary.stopped);
+}
+
+TEST(ScanProfiles, BitsDoNotDependOnTheNumberOfThreads) {
+  const auto expected = scan(numbered_input(), 1);
+  for (int threads : {2, 3, 4, 0}) {
+    const auto found = scan(numbered_input(), threads);
+    ASSERT_EQ(found.size(), expected.size());
+    for (std::size_t f = 0; f < found.size(); ++f) {
+      ASSERT_EQ(found[f].points.size(), expected[f].points.size());
+      for (std::size_t i = 0; i < found[f].points.size(); ++i) {
+        const ProfilePoint &a = found[f].points[i], &b = expected[f].points[i];
+        for (int k = 0; k < 3; ++k)
+          EXPECT_EQ(std::bit_cast<std::uint64_t>(a.position[k]), std::bit_cast<std::uint64_t>(b.position[k]));
+        EXPECT_EQ(std::bit_cast<std::uint64_t>(a.sigma_mm), std::bit_cast<std::uint64_t>(b.sigma_mm));
+      }
+    }
+  }
+}
+
+TEST(ScanProfiles, FramesWithoutPositionAreLeftOutAndCounted) {
+  ScanInput input = numbered_input();
+  input.position = [](std::int64_t frame) -> std::optional<FramePosition> {
+    if (frame % 3 == 0) return std::nullopt;
+    return FramePosition{};
+  };
+  ScanSummary summary;
+  const auto profiles = scan(input, 3, &summary);
+  EXPECT_EQ(summary.frames_without_position, kFrames / 3);
+  ASSERT_EQ(summary.frames, kFrames - kFrames / 3);
+  EXPECT_EQ(profiles[0].frame, 1);
+  EXPECT_EQ(profiles[1].frame, 2);
+  EXPECT_EQ(profiles[2].frame, 4);
+}
+
+TEST(ScanProfiles, MissingPicturesGiveShorterOrEmptyProfiles) {
+  ScanInput input = numbered_input();
+  input.read = [](std::int64_t frame, int sensor) -> std::optional<Image8> {
+    if (frame == 7 || (frame == 9 && sensor == 0)) return std::nullopt;
+    return numbered_image(frame, sensor);
+  };
+  ScanSummary summary;
+  const auto profiles = scan(input, 4, &summary);
+  ASSERT_EQ(profiles.size(), kFrames);
+  EXPECT_TRUE(profiles[7].points.empty());
+  ASSERT_EQ(profiles[9].points.size(), 5u);
+  EXPECT_EQ(profiles[9].points[0].sensor, 1);
+  EXPECT_EQ(summary.frames_without_points, 1);
+}
+
+TEST(ScanProfiles, AnEmptyScanHandsOnNothing) {
+  ScanInput input = numbered_input();
+  input.num_frames = 0;
+  ScanSummary summary;
+  EXPECT_TRUE(scan(input, 4, &summary).empty());
+  EXPECT_EQ(summary.frames, 0);
+}
+
+TEST(ScanProfiles, PictureOfAnotherSizeIsAnErrorThatNamesTheFrame) {
+  ScanInput input = numbered_input();
+  input.read = [](std::int64_t frame, int sensor) {
+    return frame == 12 && sensor == 1 ? Image8(31, 24, 0) : numbered_image(frame, sensor);
+  };
+  try {
+    scan(input, 4);
+    FAIL() << "no error";
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("field, frame 12"));
+    EXPECT_THAT(error.what(), HasSubstr("31 x 24"));
+    EXPECT_THAT(error.what(), HasSubstr("32 x 24"));
+  }
+}
+
+TEST(ScanProfiles, ExceptionsOfEveryCallbackComeOut) {
+  for (int threads : {1, 4}) {
+    ScanInput bad_read = numbered_input(), bad_position = numbered_input();
+    bad_read.read = [](std::int64_t frame, int sensor) {
+      if (frame == 20) throw Error("frame 20", "cannot be read", "look at it");
+      return numbered_image(frame, sensor);
+    };
+    EXPECT_THROW(scan(bad_read, threads), Error);
+    bad_position.position = [](std::int64_t frame) -> std::optional<FramePosition> {
+      if (frame == 20) throw std::out_of_range("position");
+      return FramePosition{};
+    };
+    EXPECT_THROW(scan(bad_position, threads), std::out_of_range);
+    const auto bad_extractor = [](ImageView8) -> std::vector<Stripe> { throw std::bad_alloc(); };
+    EXPECT_THROW(
+        scan_profiles(numbered_input(), two_sensor_rig(), bad_extractor, threads, [](const Profile&) {}),
+        std::bad_alloc);
+    std::int64_t last = -1;
+    const auto bad_sink = [&](const Profile& profile) {
+      last = profile.frame;
+      if (profile.frame == 20) throw Error("cloud.ply", "disk full", "make room");
+    };
+    EXPECT_THROW(scan_profiles(numbered_input(), two_sensor_rig(), StripeExtractor(stripes_of_numbered_image),
+                               threads, bad_sink),
+                 Error);
+    EXPECT_EQ(last, 20);  // nothing is handed on after the failure
+  }
+}
+
+TEST(ScanProfiles, OfSeveralFailuresThatOfTheFirstFrameComesOut) {
+  ScanInput input = numbered_input();
+  input.read = [](std::int64_t frame, int sensor) {
+    if (frame == 20) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    if (frame >= 20) throw Error("frame " + std::to_string(frame), "cannot be read", "look at it");
+    return numbered_image(frame, sensor);
+  };
+  try {
+    scan(input, 4);
+    FAIL() << "no error";
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("frame 20"));
+  }
+}
+
+TEST(ScanProfiles, FramesUnderWayAreBoundedWhenTheSinkIsSlow) {
+  for (int threads : {1, 2, 4}) {
+    std::atomic<std::int64_t> started{0}, most{0};
+    std::int64_t handed_on = 0;
+    std::atomic<std::int64_t> done{0};
+    ScanInput input = numbered_input();
+    input.read = [&](std::int64_t frame, int sensor) {
+      if (sensor == 0) {
+        const std::int64_t alive = ++started - done;
+        std::int64_t seen = most;
+        while (alive > seen && !most.compare_exchange_weak(seen, alive)) {
+        }
+      }
+      return numbered_image(frame, sensor);
+    };
+    scan_profiles(input, two_sensor_rig(), StripeExtractor(stripes_of_numbered_image), threads,
+                  [&](const Profile&) {
+                    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+                    ++handed_on;
+                    done = handed_on;
+                  });
+    EXPECT_LE(most, 2 * threads);
+    EXPECT_GE(most, 1);
+  }
+}
+
+TEST(ScanProfiles, AStopEndsTheRunAfterTheFramesUnderWay) {
+  std::stop_source stop;
+  ScanInput input = numbered_input();
+  input.stop = stop.get_token();
+  std::int64_t frames = 0;
+  const auto summary = scan_profiles(input, two_sensor_rig(), StripeExtractor(stripes_of_numbered_image), 2,
+                                     [&](const Profile& profile) {
+                                       EXPECT_EQ(profile.frame, frames++);
+                                       if (profile.frame == 30) stop.request_stop();
+                                     });
+  EXPECT_TRUE(summary.stopped);
+  EXPECT_EQ(summary.frames, frames);
+  EXPECT_GE(frames, 31);
+  EXPECT_LE(frames, 31 + 2 * 2);
+}
+
+TEST(ScanProfiles, NegativeThreadsAreTheCallersFault) {
+  EXPECT_THROW(scan(numbered_input(), -1), std::logic_error);
+}
+
+}  // namespace
+}  // namespace lightstripe
