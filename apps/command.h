@@ -51,25 +51,19 @@ struct Override {
 };
 using Overrides = std::vector<Override>;
 
-/// One command line option for each field of T: field stripe_width with prefix "extraction." becomes --extraction.stripe-width.
+/// One command line option for each field of T: stripe_width with prefix "extraction." becomes --extraction.stripe-width.
 /// The same field list reads the YAML files, so that no name or default is written twice.
 template <HasFields T>
 void add_field_options(CLI::App& app, const std::string& prefix, Overrides& overrides) {
-  T fields;
-  visit_fields(
-      [&](std::string_view name, auto&, std::string_view comment = {}) {
-        std::string flag(name);
-        std::replace(flag.begin(), flag.end(), '_', '-');
-        flag = "--" + prefix + flag;
-        app.add_option_function<std::string>(
-               flag,
-               [&overrides, flag, field = std::string(name)](const std::string& value) {
-                 overrides.push_back({flag, field, value});
-               },
-               std::string(comment))
-            ->group(prefix.empty() ? "Method" : "Overrides of the file's " + prefix.substr(0, prefix.size() - 1));
-      },
-      fields);
+  for (const FieldText& field : list_fields(T{})) {
+    std::string flag = "--" + prefix + field.key;
+    std::replace(flag.begin(), flag.end(), '_', '-');
+    const std::string help = field.comment + (field.value.empty() ? "" : " [" + field.value + "]");
+    app.add_option_function<std::string>(
+           flag,
+           [&overrides, flag, key = field.key](const std::string& value) { overrides.push_back({flag, key, value}); }, help)
+        ->group(prefix.empty() ? "Method" : "Over the file's " + prefix.substr(0, prefix.size() - 1));
+  }
 }
 
 template <HasFields T>
@@ -89,5 +83,6 @@ void add_calibrate_command(CLI::App& app, Command& run);
 void add_reconstruct_command(CLI::App& app, Command& run);
 void add_simulate_command(CLI::App& app, Command& run);
 void add_demo_command(CLI::App& app, Command& run);
+void add_bench_command(CLI::App& app, Command& run);
 
 }  // namespace lightstripe

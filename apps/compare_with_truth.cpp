@@ -76,16 +76,18 @@ class PlaceIndex {
 };
 
 /// The part of the true stripe points (blobs' places apart) with a measured point of their sensor and frame near by.
-double recovered(const std::vector<Profile>& profiles, const fs::path& stripes) {
+double recovered(const std::vector<Profile>& profiles, const Rig& rig, const fs::path& stripes) {
   std::map<std::pair<std::int64_t, int>, PlaceIndex> measured;
   for (const auto& profile : profiles)
     for (const auto& point : profile.points)
       measured.try_emplace({profile.frame, point.sensor}, 1.5 * kFarMm).first->second.insert(point.position);
+  std::map<std::string, int> sensor_index;
+  for (const auto& sensor : rig.sensors) sensor_index.emplace(sensor.name, static_cast<int>(sensor_index.size()));
   long visible = 0, found = 0;
   CsvReader rows(stripes, {"frame", "sensor", "X", "Y", "Z", "blob"});
   while (rows.next()) {
     if (rows.integer(0) < 0 || rows.integer(5) != 0) continue;  // frame -1: a calibration image
-    const auto index = measured.find({rows.integer(0), static_cast<int>(rows.integer(1))});
+    const auto index = measured.find({rows.integer(0), sensor_index.at(rows.text(1))});
     ++visible;
     if (index != measured.end() && index->second.near({rows.number(2), rows.number(3), rows.number(4)})) ++found;
   }
@@ -119,7 +121,7 @@ RigError compare_rigs(const Rig& rig, const Rig& truth) {
   return error;
 }
 
-CloudError compare_cloud(const std::vector<Profile>& profiles, const fs::path& truth) {
+CloudError compare_cloud(const std::vector<Profile>& profiles, const Rig& rig, const fs::path& truth) {
   const Polylines sections = read_sections(truth / "sections.csv");
   CloudError error;
   SquareSum shape, absolute;
@@ -140,7 +142,7 @@ CloudError compare_cloud(const std::vector<Profile>& profiles, const fs::path& t
   error.shape_rms_mm = shape.rms();
   error.absolute_rms_mm = absolute.rms();
   error.far_fraction = error.points > 0 ? far / static_cast<double>(error.points) : 0.0;
-  error.recovered_fraction = recovered(profiles, truth / "stripes.csv");
+  error.recovered_fraction = recovered(profiles, rig, truth / "stripes.csv");
   return error;
 }
 

@@ -38,6 +38,6 @@ struct CloudError {
 };
 
 /// `truth` is the folder that simulate_scene writes (sections.csv, stripes.csv).
-CloudError compare_cloud(const std::vector<Profile>& profiles, const std::filesystem::path& truth);
+CloudError compare_cloud(const std::vector<Profile>& profiles, const Rig& rig, const std::filesystem::path& truth);
 
 }  // namespace lightstripe

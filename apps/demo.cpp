@@ -7,6 +7,7 @@
 #include "apps/calibrate.h"
 #include "apps/command.h"
 #include "apps/compare_with_truth.h"
+#include "apps/preview.h"
 #include "apps/reconstruct.h"
 #include "apps/simulate.h"
 #include "core/error.h"
@@ -21,16 +22,26 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The pictures with the lines drawn in: the middle frame of each sensor.
-void draw_overlays(const Scan& scan, const fs::path& folder) {
+/// The middle frame of each sensor with the lines drawn in.
+std::vector<RgbPicture> draw_overlays(const Scan& scan, const fs::path& folder) {
+  std::vector<RgbPicture> overlays;
   for (const auto& [sensor, pattern] : scan.frames) {
     const auto files = list_files(scan.folder, pattern);
     const Image8 image = read_image(files[files.size() / 2], scan.channel);
     ExtractionOptions options;
     read_subtree(scan.extraction, options);
-    write_rgb_image(folder / (sensor + ".png"), draw_overlay(image, extract_stripes(image, options).stripes), image.width,
-                    image.height);
+    overlays.push_back({draw_overlay(image, extract_stripes(image, options).stripes), image.width, image.height});
+    write_rgb_image(folder / (sensor + ".png"), overlays.back().pixels, image.width, image.height);
   }
+  return overlays;
+}
+
+/// The overlays above the cloud, in one picture.
+void write_overview(const std::vector<RgbPicture>& overlays, const std::vector<Profile>& profiles, const fs::path& file) {
+  CloudPreview cloud;
+  for (const auto& profile : profiles) cloud.add(profile);
+  const RgbPicture overview = compose_overview(overlays, cloud.draw(1200, 520));
+  write_rgb_image(file, overview.pixels, overview.width, overview.height);
 }
 
 std::string accuracy_table(const RigError& rig, const CloudError& cloud) {
@@ -76,11 +87,13 @@ int run_demo(const CommonOptions& common) {
   arguments.preview = (folder / "cloud.png").string();
   const ReconstructOutcome outcome = reconstruct_scan(arguments);
   if (outcome.summary.points == 0) return not_usable("the scan gave no points");
-  draw_overlays(read_scan(simulated.scan), folder / "overlay");
+  const std::vector<Profile> profiles = read_profiles(folder / "profiles.csv");
+  write_overview(draw_overlays(read_scan(simulated.scan), folder / "overlay"), profiles, folder / "overview.png");
 
-  const RigError rig = compare_rigs(read_rig(folder / "rig.yaml"), read_rig(simulated.truth / "rig.yaml"));
-  const CloudError cloud = compare_cloud(read_profiles(folder / "profiles.csv"), simulated.truth);
-  say(common, accuracy_table(rig, cloud));
+  const Rig rig = read_rig(folder / "rig.yaml");
+  const RigError rig_error = compare_rigs(rig, read_rig(simulated.truth / "rig.yaml"));
+  const CloudError cloud_error = compare_cloud(profiles, rig, simulated.truth);
+  say(common, accuracy_table(rig_error, cloud_error));
   say(common, fmt::format("\n{} points from {} frames of {} sensors, {:.0f} frames/s with {} threads (PNG decoding included)",
                           outcome.summary.points, outcome.summary.frames, rig.sensors.size(),
                           static_cast<double>(outcome.summary.frames) / outcome.seconds, thread_count(common)));

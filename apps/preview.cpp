@@ -3,15 +3,14 @@
 #include "apps/preview.h"
 
 #include <algorithm>
+#include <limits>
 #include <numbers>
 #include <opencv2/imgproc.hpp>
-
-#include "io/images.h"
 
 namespace lightstripe {
 namespace {
 
-constexpr int kWidth = 1200, kHeight = 800, kMargin = 40;
+constexpr int kMargin = 40;
 
 struct Span {
   float low, high;
@@ -49,6 +48,42 @@ std::vector<float> coordinate(const std::vector<Eigen::Vector3f>& points, int ax
   return values;
 }
 
+/// 256 colours from blue over green to red, RGB.
+cv::Mat3b height_colors() {
+  cv::Mat1b ramp(256, 1);
+  for (int i = 0; i < 256; ++i) ramp(i, 0) = static_cast<std::uint8_t>(i);
+  cv::Mat3b colors;
+  cv::applyColorMap(ramp, colors, cv::COLORMAP_TURBO);
+  cv::cvtColor(colors, colors, cv::COLOR_BGR2RGB);
+  return colors;
+}
+
+/// Each point as 2 x 2 pixels, coloured by z; the nearest to the viewer stays.
+void draw_points(cv::Mat3b& canvas, const std::vector<Eigen::Vector3f>& points, const std::vector<Eigen::Vector3f>& seen) {
+  const Span across = robust_span(coordinate(seen, 0)), up = robust_span(coordinate(seen, 1));
+  const Span height = robust_span(coordinate(points, 2));
+  const auto room = [](int pixels) { return static_cast<float>(pixels - 2 * kMargin); };
+  const float scale = std::min(room(canvas.cols) / (across.high - across.low), room(canvas.rows) / (up.high - up.low));
+  const cv::Mat3b colors = height_colors();
+  cv::Mat1f nearest(canvas.size(), -std::numeric_limits<float>::max());
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    const float px = static_cast<float>(canvas.cols) / 2 + scale * (seen[i].x() - (across.low + across.high) / 2);
+    const float py = static_cast<float>(canvas.rows) / 2 - scale * (seen[i].y() - (up.low + up.high) / 2);
+    if (!(px >= 0 && py >= 0 && px < static_cast<float>(canvas.cols - 1) && py < static_cast<float>(canvas.rows - 1))) continue;
+    const float part = std::clamp((points[i].z() - height.low) / (height.high - height.low), 0.0F, 1.0F);
+    for (int corner = 0; corner < 4; ++corner) {
+      const int x = static_cast<int>(px) + corner % 2, y = static_cast<int>(py) + corner / 2;
+      if (seen[i].z() <= nearest(y, x)) continue;
+      nearest(y, x) = seen[i].z();
+      canvas(y, x) = colors(static_cast<int>(30 + part * 200), 0);
+    }
+  }
+}
+
+cv::Mat3b as_mat(const RgbPicture& picture) {
+  return cv::Mat3b(picture.height, picture.width, reinterpret_cast<cv::Vec3b*>(const_cast<std::uint8_t*>(picture.pixels.data())));
+}
+
 }  // namespace
 
 void CloudPreview::add(const Profile& profile) {
@@ -62,38 +97,22 @@ void CloudPreview::add(const Profile& profile) {
   }
 }
 
-void CloudPreview::write(const std::string& path, double azimuth_deg, double elevation_deg) const {
-  cv::Mat3b picture(kHeight, kWidth, cv::Vec3b(24, 22, 20));
-  if (!points_.empty()) {
-    const auto seen = as_seen(points_, azimuth_deg, elevation_deg);
-    const Span across = robust_span(coordinate(seen, 0)), up = robust_span(coordinate(seen, 1));
-    const Span height = robust_span(coordinate(points_, 2));
-    const float scale = std::min((kWidth - 2 * kMargin) / (across.high - across.low), (kHeight - 2 * kMargin) / (up.high - up.low));
-    cv::Mat1b ramp(256, 1);
-    for (int i = 0; i < 256; ++i) ramp(i, 0) = static_cast<std::uint8_t>(i);
-    cv::Mat3b colors;
-    cv::applyColorMap(ramp, colors, cv::COLORMAP_TURBO);
-    cv::Mat1f depth(kHeight, kWidth, -std::numeric_limits<float>::max());
-    for (std::size_t i = 0; i < seen.size(); ++i) {
-      const float px = kWidth / 2.0F + scale * (seen[i].x() - (across.low + across.high) / 2);
-      const float py = kHeight / 2.0F - scale * (seen[i].y() - (up.low + up.high) / 2);
-      if (!(px >= 0 && py >= 0 && px < kWidth - 1 && py < kHeight - 1)) continue;
-      const float part = std::clamp((points_[i].z() - height.low) / (height.high - height.low), 0.0F, 1.0F);
-      const cv::Vec3b bgr = colors(static_cast<int>(30 + part * 200), 0);
-      for (int dy = 0; dy < 2; ++dy) {
-        for (int dx = 0; dx < 2; ++dx) {
-          const int x = static_cast<int>(px) + dx, y = static_cast<int>(py) + dy;
-          if (seen[i].z() <= depth(y, x)) continue;
-          depth(y, x) = seen[i].z();
-          picture(y, x) = bgr;
-        }
-      }
-    }
-  }
-  cv::Mat3b rgb;
-  cv::cvtColor(picture, rgb, cv::COLOR_BGR2RGB);
-  const auto* data = rgb.ptr<std::uint8_t>();
-  write_rgb_image(path, std::vector<std::uint8_t>(data, data + rgb.total() * 3), kWidth, kHeight);
+RgbPicture CloudPreview::draw(int width, int height, double azimuth_deg, double elevation_deg) const {
+  RgbPicture picture{{}, width, height};
+  cv::Mat3b canvas(height, width, cv::Vec3b(20, 22, 24));
+  if (!points_.empty()) draw_points(canvas, points_, as_seen(points_, azimuth_deg, elevation_deg));
+  picture.pixels.assign(canvas.ptr<std::uint8_t>(), canvas.ptr<std::uint8_t>() + canvas.total() * 3);
+  return picture;
+}
+
+RgbPicture compose_overview(const std::vector<RgbPicture>& top, const RgbPicture& bottom) {
+  const int cell = bottom.width / static_cast<int>(top.size());
+  const int row = top[0].height * cell / top[0].width;
+  cv::Mat3b canvas(row + bottom.height, bottom.width, cv::Vec3b(0, 0, 0));
+  for (std::size_t i = 0; i < top.size(); ++i)
+    cv::resize(as_mat(top[i]), canvas(cv::Rect(static_cast<int>(i) * cell, 0, cell, row)), cv::Size(cell, row), 0, 0, cv::INTER_AREA);
+  as_mat(bottom).copyTo(canvas(cv::Rect(0, row, bottom.width, bottom.height)));
+  return {{canvas.ptr<std::uint8_t>(), canvas.ptr<std::uint8_t>() + canvas.total() * 3}, canvas.cols, canvas.rows};
 }
 
 }  // namespace lightstripe

@@ -13,12 +13,17 @@
 
 namespace lightstripe {
 
+struct RgbPicture {
+  std::vector<std::uint8_t> pixels;  ///< interleaved, width * height * 3
+  int width = 0, height = 0;
+};
+
 /// Keeps a bounded, evenly drawn sample of the points (reservoir sampling), whatever the length of the scan.
 class CloudPreview {
  public:
   void add(const Profile& profile);
-  /// Draws and writes a PNG; azimuth counted about z from x.
-  void write(const std::string& path, double azimuth_deg = -60, double elevation_deg = 30) const;
+  /// The cloud from `azimuth_deg` (about z, from x) and `elevation_deg` (above the x-y plane).
+  RgbPicture draw(int width = 1200, int height = 800, double azimuth_deg = -60, double elevation_deg = 30) const;
 
  private:
   static constexpr std::size_t kMaxPoints = 1'000'000;
@@ -26,5 +31,8 @@ class CloudPreview {
   std::uint64_t seen_ = 0;
   Random random_{20131};
 };
+
+/// Pictures side by side above one more, each scaled to its place: the demo's overview.
+RgbPicture compose_overview(const std::vector<RgbPicture>& top, const RgbPicture& bottom);
 
 }  // namespace lightstripe

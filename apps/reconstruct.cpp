@@ -168,7 +168,7 @@ ReconstructOutcome reconstruct_scan(const ReconstructArguments& arguments) {
 
   const std::string output = output_of(arguments);
   AtomicFile cloud_file(output);
-  CloudWriter cloud(cloud_file.temporary());
+  CloudWriter cloud(cloud_file.temporary(), output);
   std::optional<ProfileTable> profiles;
   if (!arguments.profiles.empty()) profiles.emplace(arguments.profiles);
   CloudPreview preview;
@@ -188,7 +188,10 @@ ReconstructOutcome reconstruct_scan(const ReconstructArguments& arguments) {
   if (outcome.summary.points == 0) return outcome;
   cloud_file.commit();
   if (profiles) profiles->commit();
-  if (!arguments.preview.empty()) preview.write(arguments.preview);
+  if (!arguments.preview.empty()) {
+    const RgbPicture picture = preview.draw();
+    write_rgb_image(arguments.preview, picture.pixels, picture.width, picture.height);
+  }
   write_run_record(output, "reconstruct", {arguments.scan, rig_file}, "extraction:\n" + indented(dump_yaml(extraction)));
   return outcome;
 }

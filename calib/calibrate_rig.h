@@ -14,24 +14,33 @@
 namespace lightstripe {
 
 struct CalibrationOptions {
-  double corner_sigma_px = 0.1;   ///< expected 1-sigma error of a corner, px
-  double robust_scale = 3.0;      ///< residuals beyond this many sigma lose weight (Huber)
-  int max_iterations = 100;
+  double corner_sigma_px = 0.1;         ///< expected 1-sigma error of a corner, px
+  double stripe_sigma_floor_px = 0.05;  ///< added in quadrature to each stripe point's own sigma_px
+  double robust_scale = 3.0;            ///< residuals beyond this many sigma lose weight (Huber)
+  double outlier_sigma = 4.5;           ///< residuals beyond this many sigma are left out of the last rounds
+  int distortion_terms =
+      5;  ///< of OpenCV's order: 4 (k1 k2 p1 p2), 5 (and k3), 8 (rational), 12 (thin prism)
+  int max_iterations = 100;  ///< of each round
 };
 
 template <class V>
 void visit_fields(V&& v, CalibrationOptions& o) {
   v("corner_sigma_px", o.corner_sigma_px, "expected error of a detected corner, px");
+  v("stripe_sigma_floor_px", o.stripe_sigma_floor_px,
+    "added in quadrature to each stripe point's predicted error, px");
   v("robust_scale", o.robust_scale, "residuals beyond this many sigma lose weight");
-  v("max_iterations", o.max_iterations);
+  v("outlier_sigma", o.outlier_sigma, "residuals beyond this many sigma are left out");
+  v("distortion_terms", o.distortion_terms, "4 (k1 k2 p1 p2) | 5 (and k3) | 8 (rational) | 12 (thin prism)");
+  v("max_iterations", o.max_iterations, "of each round of the adjustment");
 }
 
-/// Residuals of one view of one sensor.
+/// Residuals of one view of one sensor; corners as length of the 2D residual, as OpenCV counts them.
 struct ViewResidual {
   std::string sensor, image;
   double board_rms_px = 0;
-  double stripe_rms_px = 0;  ///< 0 where the view shows no stripe
-  int corners = 0, stripe_points = 0;
+  double stripe_rms_px = 0;            ///< 0 where the view shows no stripe
+  int corners = 0, stripe_points = 0;  ///< used
+  int left_out = 0;                    ///< corners and stripe points that did not fit
 };
 
 /// Whether and how well it went; starts as "not run".
@@ -47,6 +56,7 @@ struct CalibrationResult {
   CalibrationSummary summary;
 };
 
-CalibrationResult calibrate_rig(const CalibrationObservations& observations, const CalibrationOptions& options = {});
+CalibrationResult calibrate_rig(const CalibrationObservations& observations,
+                                const CalibrationOptions& options = {});
 
 }  // namespace lightstripe

@@ -84,7 +84,8 @@ void chain_sensors(InitialValues& values) {
     const auto& names = values.measurements.sensor_names;
     if (best.size() == 1)
       values.warnings.push_back(fmt::format("sensors {} and {} share one pose of the board only",
-                                            names[static_cast<std::size_t>(from)], names[static_cast<std::size_t>(to)]));
+                                            names[static_cast<std::size_t>(from)],
+                                            names[static_cast<std::size_t>(to)]));
     linked[static_cast<std::size_t>(to)] = true;
     values.state.sensors[static_cast<std::size_t>(to)].cam_from_first =
         medoid(best) * values.state.sensors[static_cast<std::size_t>(from)].cam_from_first;
@@ -105,13 +106,15 @@ void refuse_unlinked(const InitialValues& values) {
   for (std::size_t i = 0; i < names.size(); ++i)
     if (!linked[i]) alone += (alone.empty() ? "" : ", ") + names[i];
   if (!alone.empty())
-    throw NotUsable(fmt::format("no board pose links sensor {} with {}; add poses of the board that both see at the same "
-                                "time, with the same text in their file names",
-                                alone, names[0]));
+    throw NotUsable(
+        fmt::format("no board pose links sensor {} with {}; add poses of the board that both see at the same "
+                    "time, with the same text in their file names",
+                    alone, names[0]));
 }
 
 /// The way to list the corners of view i that brings it nearest to the pose known so far.
-std::size_t nearest_turn(const InitialValues& values, std::size_t i, const Rigid3& first_from_board, double* difference) {
+std::size_t nearest_turn(const InitialValues& values, std::size_t i, const Rigid3& first_from_board,
+                         double* difference) {
   const auto& view = values.measurements.views[i];
   const auto& sensor = values.state.sensors[static_cast<std::size_t>(view.sensor)];
   const std::size_t turns = corner_orders(values.measurements.target).size();
@@ -128,9 +131,11 @@ std::size_t nearest_turn(const InitialValues& values, std::size_t i, const Rigid
   return best;
 }
 
-/// Poses in the first frame; corners relisted where a view shows the board turned; views that contradict left out.
+/// Poses in the first frame; corners relisted where a view shows the board turned; views that contradict left
+/// out.
 void gather_poses(InitialValues& values) {
-  constexpr double kMaxDifference_mm = 25;  // between two sensors' opinions of one pose; noise gives 1 to 3
+  constexpr double kMaxDifference =
+      0.08;  // of the range, between two sensors' opinions of one pose; noise gives 0.5 %
   auto& m = values.measurements;
   const auto orders = corner_orders(m.target);
   std::vector<std::optional<Rigid3>> poses(m.poses.size());
@@ -146,11 +151,12 @@ void gather_poses(InitialValues& values) {
     }
     double difference = 0;
     const std::size_t k = nearest_turn(values, i, *pose, &difference);
-    if (difference > kMaxDifference_mm) {
+    if (difference > kMaxDifference * values.cam_from_board[i].translation.norm()) {
       keep[i] = false;
-      values.warnings.push_back(fmt::format("{}: left out, another sensor sees the board of pose {} {:.0f} mm away; are "
-                                            "these images of the same moment?",
-                                            view.image, m.poses[static_cast<std::size_t>(view.pose)], difference));
+      values.warnings.push_back(
+          fmt::format("{}: left out, another sensor sees the board of pose {} {:.0f} mm away; are "
+                      "these images of the same moment?",
+                      view.image, m.poses[static_cast<std::size_t>(view.pose)], difference));
     } else if (k > 0) {
       view.corners = relisted(view.corners, orders[k]);
       values.cam_from_board[i] = values.cam_from_board[i] * board_turn(m.target, k);

@@ -41,9 +41,10 @@ int pose_index(std::vector<std::string>& poses, const std::string& pose) {
 
 void add_sensor(Measurements& result, const SensorObservations& sensor, int index) {
   if (static_cast<int>(sensor.views.size()) < kMinViews)
-    throw NotUsable(fmt::format("sensor {}: the board was found in {} images only; at least {} are needed, take 15 to 30 "
-                                "with the board tilted by 20 to 45 degrees to different sides",
-                                sensor.name, sensor.views.size(), kMinViews));
+    throw NotUsable(
+        fmt::format("sensor {}: the board was found in {} images only; at least {} are needed, take 15 to 30 "
+                    "with the board tilted by 20 to 45 degrees to different sides",
+                    sensor.name, sensor.views.size(), kMinViews));
   result.sensor_names.push_back(sensor.name);
   result.image_sizes.push_back({sensor.width, sensor.height});
   for (const auto& view : sensor.views) {
@@ -99,7 +100,8 @@ Measurements prepare_measurements(const CalibrationObservations& observations) {
   result.target = observations.target;
   for (std::size_t i = 0; i < observations.sensors.size(); ++i)
     add_sensor(result, observations.sensors[i], static_cast<int>(i));
-  if (observations.motion && observations.motion->type != MotionType::kNone) add_motion(result, *observations.motion);
+  if (observations.motion && observations.motion->type != MotionType::kNone)
+    add_motion(result, *observations.motion);
   return result;
 }
 
@@ -109,7 +111,8 @@ std::vector<StripePoint> independent_points(const std::vector<StripePoint>& poin
   for (const auto& point : points) {
     if (point.flags & kStripeBridged) continue;
     const double spacing_px = std::max(kMinSpacing_px, point.width);
-    if (kept.empty() || std::hypot(point.x - kept.back().x, point.y - kept.back().y) >= spacing_px) kept.push_back(point);
+    if (kept.empty() || std::hypot(point.x - kept.back().x, point.y - kept.back().y) >= spacing_px)
+      kept.push_back(point);
   }
   return kept;
 }
@@ -129,7 +132,8 @@ Rigid3 board_turn(const Target& target, std::size_t k) {
   const auto order = corner_orders(target).at(k);
   const Vector2d origin = target.corner(order[0]), along_x = target.corner(order[1]) - origin;
   const double angle = std::atan2(along_x.y(), along_x.x());
-  return {Eigen::Quaterniond(Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ())), {origin.x(), origin.y(), 0}};
+  return {Eigen::Quaterniond(Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ())),
+          {origin.x(), origin.y(), 0}};
 }
 
 std::vector<Vector2d> relisted(const std::vector<Vector2d>& corners, const std::vector<int>& order) {

@@ -16,10 +16,11 @@ namespace lightstripe {
 
 /// One board pose seen by one sensor. The same `pose` text in two sensors = the same pose of the board.
 struct BoardView {
-  std::string image;                      ///< for messages
+  std::string image;  ///< for messages
   std::string pose;
-  std::vector<Eigen::Vector2d> corners;   ///< px, in the order of Target::corner
-  std::vector<std::vector<StripePoint>> stripes;  ///< for each laser plane the points on the board (may be empty)
+  std::vector<Eigen::Vector2d> corners;  ///< px, in the order of Target::corner
+  std::vector<std::vector<StripePoint>>
+      stripes;  ///< for each laser plane the points on the board (may be empty)
 };
 
 struct SensorObservations {

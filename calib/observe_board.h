@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -16,22 +17,39 @@ namespace lightstripe {
 
 struct BoardDetection {
   bool found = false;
-  std::string reason;                    ///< why not, in words a person can act on
-  std::vector<Eigen::Vector2d> corners;  ///< px, in the order of Target::corner, handedness and colours checked
+  std::string reason;  ///< why not, in words a person can act on
+  std::vector<Eigen::Vector2d>
+      corners;            ///< px, in the order of Target::corner, handedness and colours checked
+  std::size_t image = 0;  ///< which of the candidate images showed it
 };
 
-/// cv::findChessboardCornersSB; the order is made unique: x cross y points into the board, and the square between the
-/// first four corners is dark where the target's colours can tell (columns + rows odd).
+/// The board's corners to a few hundredths of a pixel: located by cv::findChessboardCornersSB, or where that
+/// fails (other patterns in the picture) by linking saddle points; refined by cv::cornerSubPix. The order is
+/// made unique: x cross y points into the board, and the square between the first four corners is dark where
+/// the target's colours can tell (columns + rows odd). Thread-safe.
 BoardDetection detect_board(ImageView8 image, const Target& target);
+
+/// The first of several renderings of one picture that shows the board; of a colour picture with a laser line
+/// give first the channels in which the line is weakest (red laser: green, blue), then the grey picture. No
+/// candidates: not found.
+BoardDetection detect_board(std::span<const ImageView8> candidates, const Target& target);
 
 struct StripeOnBoard {
   std::vector<std::vector<StripePoint>> planes;  ///< for each laser plane, points on the board
   std::string reason;                            ///< why there are none
 };
 
-/// The stripe's points on the board: `laser` shows the stripe; `board` (may be empty) shows the same pose with the laser off
-/// and is subtracted. Points near the squares' edges, where the albedo step shifts the centre, are left out.
-StripeOnBoard find_stripe_on_board(ImageView8 laser, ImageView8 board, const std::vector<Eigen::Vector2d>& corners,
-                                   const Target& target, int laser_planes, const ExtractionOptions& extraction);
+/// The stripe's points on the board: `laser` shows the stripe; `board` (may be empty) shows the same pose
+/// with the laser off and is subtracted. Points near the squares' edges, where the albedo step shifts the
+/// centre, are left out.
+StripeOnBoard find_stripe_on_board(ImageView8 laser, ImageView8 board,
+                                   const std::vector<Eigen::Vector2d>& corners, const Target& target,
+                                   int laser_planes, const ExtractionOptions& extraction);
+
+/// The second half of find_stripe_on_board: of the stripes found in the whole picture the points on the
+/// board, as `laser_planes` straight lines on it, ordered by their place across the image (left to right, or
+/// top to bottom).
+StripeOnBoard select_stripes(const std::vector<Stripe>& stripes, const std::vector<Eigen::Vector2d>& corners,
+                             const Target& target, int laser_planes);
 
 }  // namespace lightstripe

@@ -11,7 +11,8 @@ using Eigen::Vector3d;
 
 Vector3d moved(const MotionState& motion, MotionType type, double signed_travel, const Vector3d& p_first) {
   if (type == MotionType::kRotary)
-    return motion.axis_point + Eigen::AngleAxisd(signed_travel, motion.direction) * (p_first - motion.axis_point);
+    return motion.axis_point +
+           Eigen::AngleAxisd(signed_travel, motion.direction) * (p_first - motion.axis_point);
   return p_first + signed_travel * motion.direction;
 }
 
@@ -21,8 +22,8 @@ std::optional<StripeLine> stripe_line(const Plane& board, const Plane& laser) {
   if (sine < std::sin(0.5 * std::numbers::pi / 180)) return std::nullopt;
   const Vector3d direction = across / sine;
   // The point of both planes nearest to the origin: in the span of the two normals.
-  const Vector3d point = (board.offset * laser.normal.cross(across) - laser.offset * board.normal.cross(across)) /
-                         (sine * sine);
+  const Vector3d point =
+      (board.offset * laser.normal.cross(across) - laser.offset * board.normal.cross(across)) / (sine * sine);
   return StripeLine{point, direction};
 }
 

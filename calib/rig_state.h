@@ -24,7 +24,7 @@ struct SensorState {
 };
 
 struct MotionState {
-  Rigid3 first_from_board;                              ///< the fixed board at travel 0
+  Rigid3 first_from_board;                               ///< the fixed board at travel 0
   Eigen::Vector3d direction = Eigen::Vector3d::UnitX();  ///< of travel (linear), of the axis (rotary); unit
   Eigen::Vector3d axis_point = Eigen::Vector3d::Zero();  ///< rotary
 };
@@ -38,8 +38,8 @@ struct RigState {
 /// One image's measurements. Corners in an order that agrees with the other views of the same pose.
 struct ViewMeasurement {
   int sensor = 0;
-  int pose = -1;       ///< index into Measurements::poses; -1: the fixed board of the motion
-  double travel = 0;   ///< motion views only; mm, or radians
+  int pose = -1;      ///< index into Measurements::poses; -1: the fixed board of the motion
+  double travel = 0;  ///< motion views only; mm, or radians
   std::string image;
   std::vector<Eigen::Vector2d> corners;           ///< px
   std::vector<std::vector<StripePoint>> stripes;  ///< for each laser plane; thinned to independent points
@@ -66,7 +66,8 @@ struct NotUsable : std::runtime_error {
 };
 
 /// Where the fixed board is seen at this travel (mm, or radians), first frame.
-Eigen::Vector3d moved(const MotionState& motion, MotionType type, double signed_travel, const Eigen::Vector3d& p_first);
+Eigen::Vector3d moved(const MotionState& motion, MotionType type, double signed_travel,
+                      const Eigen::Vector3d& p_first);
 
 /// Where a laser plane and a board meet.
 struct StripeLine {

@@ -15,7 +15,8 @@ namespace lightstripe {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
-constexpr double kMinTilt_deg = 3;     // of the boards against their mean direction; below it f and the range are one
+constexpr double kMinTilt_deg =
+    3;  // of the boards against their mean direction; below it f and the range are one
 constexpr double kMaxViewError_px = 3;  // a view beyond it has corners in a wrong order, or another board
 
 std::vector<cv::Point2f> cv_points(const std::vector<Eigen::Vector2d>& corners) {
@@ -34,7 +35,8 @@ std::vector<cv::Point3f> cv_board(const Target& target) {
 }
 
 Rigid3 rigid(const cv::Mat& rotation_vector, const cv::Mat& translation) {
-  const Eigen::Vector3d r(rotation_vector.at<double>(0), rotation_vector.at<double>(1), rotation_vector.at<double>(2));
+  const Eigen::Vector3d r(rotation_vector.at<double>(0), rotation_vector.at<double>(1),
+                          rotation_vector.at<double>(2));
   const double angle = r.norm();
   Rigid3 result;
   if (angle > 0) result.rotation = Eigen::AngleAxisd(angle, r / angle);
@@ -42,7 +44,8 @@ Rigid3 rigid(const cv::Mat& rotation_vector, const cv::Mat& translation) {
   return result;
 }
 
-/// The board's normal for a camera of a guessed focal length: K^T times the vanishing line of the board's plane.
+/// The board's normal for a camera of a guessed focal length: K^T times the vanishing line of the board's
+/// plane.
 Eigen::Vector3d rough_normal(const ViewMeasurement& view, const Target& target, double width, double height) {
   std::vector<cv::Point2f> board;
   for (const auto& p : cv_board(target)) board.emplace_back(p.x, p.y);
@@ -67,11 +70,13 @@ void refuse_parallel_boards(const std::vector<const ViewMeasurement*>& views, co
     mean += normals.back();
   }
   double tilt = 0;
-  for (const auto& normal : normals) tilt = std::max(tilt, std::acos(std::min(1.0, normal.dot(mean.normalized()))));
+  for (const auto& normal : normals)
+    tilt = std::max(tilt, std::acos(std::min(1.0, normal.dot(mean.normalized()))));
   if (tilt < kMinTilt_deg * kDegree)
-    throw NotUsable(fmt::format("sensor {}: all boards are parallel within {:.1f} degrees, so focal length and range "
-                                "cannot be told apart; tilt the board by 20 to 45 degrees to different sides",
-                                sensor, tilt / kDegree));
+    throw NotUsable(
+        fmt::format("sensor {}: all boards are parallel within {:.1f} degrees, so focal length and range "
+                    "cannot be told apart; tilt the board by 20 to 45 degrees to different sides",
+                    sensor, tilt / kDegree));
 }
 
 struct CameraStart {
@@ -95,11 +100,13 @@ CameraStart calibrate_camera(const std::vector<const ViewMeasurement*>& views, c
     K.release();
   }
   if (K.empty() || !(K.at<double>(0, 0) > 0 && K.at<double>(0, 0) < 1e6))
-    throw NotUsable(fmt::format("sensor {}: no camera explains the {} board views; tilt the board by 20 to 45 degrees to "
-                                "different sides and check the number of corners and the pitch",
-                                sensor, views.size()));
+    throw NotUsable(
+        fmt::format("sensor {}: no camera explains the {} board views; tilt the board by 20 to 45 degrees to "
+                    "different sides and check the number of corners and the pitch",
+                    sensor, views.size()));
   CameraStart start;
-  start.camera = {size[0], size[1], K.at<double>(0, 0), K.at<double>(1, 1), K.at<double>(0, 2), K.at<double>(1, 2), {}};
+  start.camera = {
+      size[0], size[1], K.at<double>(0, 0), K.at<double>(1, 1), K.at<double>(0, 2), K.at<double>(1, 2), {}};
   for (int i = 0; i < 4; ++i) start.camera.distortion[static_cast<std::size_t>(i)] = distortion.at<double>(i);
   for (std::size_t i = 0; i < views.size(); ++i) {
     start.cam_from_board.push_back(rigid(rotations[i], translations[i]));
@@ -109,8 +116,8 @@ CameraStart calibrate_camera(const std::vector<const ViewMeasurement*>& views, c
 }
 
 /// One view of wrong corners spoils the whole start: the worst is left out while it stands out.
-CameraStart calibrate_camera_robustly(InitialValues& values, std::vector<std::size_t>& indices, const std::string& sensor,
-                                      const std::array<int, 2>& size) {
+CameraStart calibrate_camera_robustly(InitialValues& values, std::vector<std::size_t>& indices,
+                                      const std::string& sensor, const std::array<int, 2>& size) {
   const std::size_t least = std::max<std::size_t>(3, indices.size() - indices.size() / 4);
   for (;;) {
     std::vector<const ViewMeasurement*> views;
@@ -148,7 +155,8 @@ void start_cameras(InitialValues& values) {
       views.push_back(&m.views[i]);
     }
     refuse_parallel_boards(views, m.target, m.sensor_names[sensor], m.image_sizes[sensor]);
-    const auto start = calibrate_camera_robustly(values, indices, m.sensor_names[sensor], m.image_sizes[sensor]);
+    const auto start =
+        calibrate_camera_robustly(values, indices, m.sensor_names[sensor], m.image_sizes[sensor]);
     values.state.sensors.push_back({start.camera, {}, {}});
     for (std::size_t i = 0; i < indices.size(); ++i) {
       keep[indices[i]] = true;

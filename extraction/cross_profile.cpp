@@ -15,23 +15,32 @@ double mean_of_three(const PixelLine<T>& line, int index) {
   return (line[i - 1] + line[i] + line[i + 1]) * (1.0 / 3.0);
 }
 
-/// Distance from `centre` to where the grey value falls below `level`, going by `direction`; -1 where it does
-/// not.
+/// Distances from the centre to where the grey value falls below two levels; -1 where it does not.
+struct Flank {
+  double half = -1, foot = -1;
+};
+
 template <class T>
-double flank_distance(const PixelLine<T>& line, double centre, int start, int direction, int reach,
-                      double level) {
+Flank measure_flank(const PixelLine<T>& line, double centre, int start, int direction, int reach,
+                    double half_level, double foot_level) {
+  Flank flank;
   double previous = line[start];
+  const auto place = [&](int k, double grey, double level) {
+    const double part = previous > level ? (previous - level) / (previous - grey) : 0.0;
+    return (start - centre) * direction + k - 1 + part;
+  };
   for (int k = 1; k <= reach; ++k) {
     const int index = start + direction * k;
-    if (index < 0 || index >= line.count) return -1;
+    if (index < 0 || index >= line.count) return flank;
     const double grey = line[index];
-    if (grey < level) {
-      const double part = previous > level ? (previous - level) / (previous - grey) : 0.0;
-      return (start - centre) * direction + k - 1 + part;
+    if (flank.half < 0 && grey < half_level) flank.half = place(k, grey, half_level);
+    if (grey < foot_level) {
+      flank.foot = place(k, grey, foot_level);
+      return flank;
     }
     previous = grey;
   }
-  return -1;
+  return flank;
 }
 
 }  // namespace
@@ -46,13 +55,16 @@ CrossProfile measure_profile(PixelLine<T> line, double centre, int reach) {
   const int near = std::max(2, reach * 2 / 3);
   p.background_left = std::min(mean_of_three(line, c - reach), mean_of_three(line, c - near));
   p.background_right = std::min(mean_of_three(line, c + reach), mean_of_three(line, c + near));
-  const double level_left = p.background_left + kWidthLevel * (p.top - p.background_left);
-  const double level_right = p.background_right + kWidthLevel * (p.top - p.background_right);
-  p.left = flank_distance(line, centre, c, -1, reach, level_left);
-  p.right = flank_distance(line, centre, c, +1, reach, level_right);
-  p.bounded = p.left >= 0 && p.right >= 0;
-  if (p.left < 0) p.left = reach;
-  if (p.right < 0) p.right = reach;
+  const auto flank = [&](int direction, double background) {
+    const double height = p.top - background;
+    return measure_flank(line, centre, c, direction, reach, background + 0.5 * height,
+                         background + kWidthLevel * height);
+  };
+  const Flank left = flank(-1, p.background_left), right = flank(+1, p.background_right);
+  p.bounded = left.foot >= 0 && right.foot >= 0;
+  p.left = left.foot >= 0 ? left.foot : reach;
+  p.right = right.foot >= 0 ? right.foot : reach;
+  p.half_level_width = left.half >= 0 && right.half >= 0 ? left.half + right.half : 0.0;
   return p;
 }
 

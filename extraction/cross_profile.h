@@ -15,9 +15,20 @@ namespace lightstripe {
 /// Steger's rule).
 inline constexpr double kWidthLevel = 0.22313016014842982;
 
+/// The same full width where the flanks are steep: pixels blur the foot of a sharp bar, but not its width at
+/// half the peak. `foot` at kWidthLevel, `half` at half the peak; their ratio tells the bar (1) from the
+/// Gaussian (1.471).
+inline double bar_width(double foot, double half) {
+  constexpr double kGaussian = 0.4710;  // sqrt(3) / sqrt(2 ln 2) - 1
+  if (!(half > 0)) return foot;
+  const double excess = std::fmin(std::fmax(foot / half - 1, 0.0), kGaussian);
+  return foot > (1 + kGaussian) * half ? foot : half * (1 + excess * excess / kGaussian);
+}
+
 /// Lengths in px along the row or column.
 struct CrossProfile {
   double left = 0, right = 0;                        ///< from the centre to the width level, at most `reach`
+  double half_level_width = 0;                       ///< full width at half the peak
   double background_left = 0, background_right = 0;  ///< grey levels
   double top = 0;        ///< grey level at the centre, of three pixels weighted 1:2:1
   double brightest = 0;  ///< grey level, largest of the three

@@ -54,7 +54,7 @@ class Follower {
   std::optional<RidgePlace> beside(const Tip& tip, const RidgeSearch& ahead) const;
   std::optional<RidgePlace> around_corner(const Tip& tip, const RidgeSearch& ahead) const;
   bool meets_line(const Tip& tip) const;
-  std::optional<Landing> look_ahead(const Tip& tip, bool far) const;
+  std::optional<Landing> look_ahead(const Tip& tip, int nearest, bool far) const;
   bool go_on(std::size_t before, Tip& tip, std::vector<StripePoint>& out);
   bool leap(Tip& tip, std::size_t before, bool far, std::vector<StripePoint>& out);
   void advance(Tip& tip, const RidgePlace& p, std::vector<StripePoint>& out);
@@ -150,18 +150,19 @@ bool Follower<T>::meets_line(const Tip& tip) const {
   return false;
 }
 
-/// The first clear ridge on the straight continuation that is followed by more of it.
+/// The first clear ridge on the straight continuation, from `nearest` steps on, that is followed by more of
+/// it.
 template <class T>
-std::optional<Landing> Follower<T>::look_ahead(const Tip& tip, bool far) const {
+std::optional<Landing> Follower<T>::look_ahead(const Tip& tip, int nearest, bool far) const {
   const int farthest = far ? static_cast<int>(14 * finder_.kernels.sigma) : limits_.largest_gap;
   const int confirmed_after = far ? 1 + static_cast<int>(finder_.kernels.sigma) : 1;
-  for (int k = 2; k <= farthest; ++k) {
+  for (int k = nearest; k <= farthest; ++k) {
     RidgeSearch search = predict(tip, tip.direction, k, 0);
     if (!is_free(search.x, search.y)) continue;
     search.reach = std::min(0.75 + 0.12 * k, 2.5);
     search.least_cosine = 0.92;
     search.clear_only = true;
-    search.least_strength = std::max(search.least_strength, 0.1 * tip.recent_strength);
+    search.least_strength = std::max(search.least_strength, 0.02 * tip.recent_strength);
     const auto found = finder_.find(search);
     if (!found || !is_free(found->x, found->y)) continue;
     // One point may be noise, or still be drawn aside by what was crossed: further ones have to agree.
@@ -206,7 +207,8 @@ bool Follower<T>::leap(Tip& tip, std::size_t before, bool far, std::vector<Strip
     const double dx = p.x - q.x, dy = p.y - q.y, length = std::hypot(dx, dy);
     base = {p.x, p.y, {dx / length, dy / length}, tip.recent_strength, 0};
   }
-  const auto landing = look_ahead(base, far);
+  // Always beyond the tip, so that following gets on.
+  const auto landing = look_ahead(base, retreats ? static_cast<int>(doubtful) + 2 : 2, far);
   if (!landing) return false;
   if (retreats) out.resize(out.size() - doubtful);
   RidgePlace from;

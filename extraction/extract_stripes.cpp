@@ -169,6 +169,34 @@ std::optional<double> found_width(ExtractionWorkspace& w) {
   return median_of(w.values);
 }
 
+std::size_t measured_points(const ExtractionWorkspace& w) {
+  std::size_t count = 0;
+  for (const LineRange& r : w.lines.lines)
+    for (std::size_t i = r.begin; i < r.end; ++i) count += w.lines.points[i].flags == 0 ? 1U : 0U;
+  return count;
+}
+
+/// The estimated width came from single pixels; whole lines know better. The scale follows the lines' own
+/// width, as long as that does not lose points.
+template <class T>
+void refine_sigma(ImageView<T> image, const ExtractionOptions& options, const ImageFacts& facts,
+                  ExtractionWorkspace& w, ExtractionResult& result) {
+  for (int pass = 0; pass < 3; ++pass) {
+    const auto width = found_width(w);
+    if (!width) return;
+    const double before = result.sigma;
+    const double change = std::clamp(sigma_of_width(*width) / before, 0.7, 1.4);
+    if (std::abs(std::log(change)) < 0.15) return;
+    const std::size_t points = measured_points(w);
+    result.sigma = std::clamp(change * before, kLeastSigma, kLargestSigma);
+    find_lines(image, options, facts, w, result);
+    if (20 * measured_points(w) >= 19 * points) continue;
+    result.sigma = before;
+    find_lines(image, options, facts, w, result);
+    return;
+  }
+}
+
 /// Longest lines first, each with growing x or y; into the result's own memory.
 void hand_over(ExtractionWorkspace& w, int max_lines, ExtractionResult& result) {
   auto& lines = w.lines.lines;
@@ -207,14 +235,7 @@ void extract(ImageView<T> image, const ExtractionOptions& options, ExtractionWor
   if (!sigma) return;
   result.sigma = *sigma;
   find_lines(image, options, facts, w, result);
-  if (!options.sigma && !options.stripe_width) {
-    // The estimate came from single pixels; whole lines know better.
-    const auto width = found_width(w);
-    if (width && std::abs(std::log(sigma_of_width(*width) / result.sigma)) > 0.15) {
-      result.sigma = sigma_of_width(*width);
-      find_lines(image, options, facts, w, result);
-    }
-  }
+  if (!options.sigma && !options.stripe_width) refine_sigma(image, options, facts, w, result);
   smooth_measures(w.kernels, w.lines, w.scratch);
   predict_errors(w.kernels, facts.noise, w.lines);
   hand_over(w, options.max_lines, result);

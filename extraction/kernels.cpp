@@ -45,15 +45,17 @@ struct KernelTriple {
   std::vector<double> smooth, slope, curvature;
 };
 
-/// The three kernels for pixels at distances `u` from the place. Cutting them off at 3 sigma is made good on
-/// polynomials: constants, ramps and parabolas give exactly their own derivatives.
-KernelTriple shifted_kernels(const std::vector<double>& u, double sigma) {
+/// The three kernels for pixels at distances `u` from the place, as far as `reach`. Cutting them off at 3
+/// sigma is made good on polynomials: constants, ramps and parabolas give exactly their own derivatives.
+KernelTriple shifted_kernels(const std::vector<double>& u, double sigma, double reach) {
   KernelTriple k;
   for (const double d : u) {
+    // The last pixel fades, so that nothing jumps when the kernel is shifted.
+    const double fade = std::clamp(reach - std::abs(d), 0.0, 1.0);
     const double a = d - 0.5, b = d + 0.5;
-    k.smooth.push_back(gaussian_integral(b, sigma) - gaussian_integral(a, sigma));
-    k.slope.push_back(gaussian(a, sigma) - gaussian(b, sigma));
-    k.curvature.push_back(gaussian_slope(b, sigma) - gaussian_slope(a, sigma));
+    k.smooth.push_back(fade * (gaussian_integral(b, sigma) - gaussian_integral(a, sigma)));
+    k.slope.push_back(fade * (gaussian(a, sigma) - gaussian(b, sigma)));
+    k.curvature.push_back(fade * (gaussian_slope(b, sigma) - gaussian_slope(a, sigma)));
   }
   scale(k.smooth, 1.0 / moments(k.smooth, u).sum);
   add(k.slope, -moments(k.slope, u).sum, k.smooth);
@@ -63,6 +65,7 @@ KernelTriple shifted_kernels(const std::vector<double>& u, double sigma) {
   add(k.curvature, -m.sum, k.smooth);
   add(k.curvature, -moments(k.curvature, u).first, k.slope);
   scale(k.curvature, 2.0 / moments(k.curvature, u).second);
+  add(k.slope, -0.5 * moments(k.slope, u).second, k.curvature);
   return k;
 }
 
@@ -104,7 +107,7 @@ DerivativeKernels make_derivative_kernels(double sigma) {
   LIGHTSTRIPE_CHECK(sigma >= 0.4 && sigma <= 40.0, "sigma out of range");
   DerivativeKernels kernels;
   kernels.sigma = sigma;
-  kernels.radius = std::max(2, static_cast<int>(std::ceil(3.0 * sigma)));
+  kernels.radius = std::max(2, static_cast<int>(std::ceil(3.2 * sigma)));
   kernels.taps = 2 * kernels.radius + 2;
   kernels.pitch =
       (kernels.taps + DerivativeKernels::kLanes - 1) / DerivativeKernels::kLanes * DerivativeKernels::kLanes;
@@ -113,7 +116,7 @@ DerivativeKernels make_derivative_kernels(double sigma) {
   for (int phase = 0; phase < DerivativeKernels::kPhases; ++phase) {
     for (int i = 0; i < kernels.taps; ++i)
       u[static_cast<std::size_t>(i)] = i - kernels.radius - phase * (1.0 / DerivativeKernels::kPhases);
-    const KernelTriple triple = shifted_kernels(u, sigma);
+    const KernelTriple triple = shifted_kernels(u, sigma, kernels.radius + 1.0);
     float* out = kernels.weights.data() + static_cast<std::ptrdiff_t>(phase) * 3 * kernels.pitch;
     for (const auto* kernel : {&triple.smooth, &triple.slope, &triple.curvature}) {
       for (std::size_t i = 0; i < kernel->size(); ++i) out[i] = static_cast<float>((*kernel)[i]);

@@ -23,7 +23,7 @@ struct DerivativeKernels {
   static constexpr int kPhases = 32;
 
   double sigma = 0;            ///< px
-  int radius = 0;              ///< px, 3 sigma
+  int radius = 0;              ///< px, 3.2 sigma
   int taps = 0;                ///< 2 * radius + 2: both ends of a shifted kernel
   int pitch = 0;               ///< taps rounded up to kLanes; the rest is zero
   std::vector<float> weights;  ///< [phase][order][pitch]

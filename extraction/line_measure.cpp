@@ -41,11 +41,13 @@ void measure_points(ImageView<T> image, const DerivativeKernels& kernels, LineSe
   const double full_width = 2 * std::numbers::sqrt3 * kernels.sigma;
   constexpr double kClipped = std::numeric_limits<T>::max() - 1;  // some cameras stop one level short
   contrast.resize(lines.points.size());
+  lines.half_level_widths.resize(lines.points.size());
   for (std::size_t i = 0; i < lines.points.size(); ++i) {
     StripePoint& p = lines.points[i];
     const CrossProfile profile = profile_at(image, p, full_width);
     const double cosine = std::max(std::abs(p.normal_x), std::abs(p.normal_y));
     p.width = profile.width() * cosine;
+    lines.half_level_widths[i] = static_cast<float>(profile.half_level_width * cosine);
     p.intensity = static_cast<float>(profile.intensity());
     contrast[i] = static_cast<float>(profile.contrast());
     if (profile.brightest >= kClipped) p.flags |= kStripeSaturated;
@@ -59,28 +61,23 @@ template void measure_points<std::uint16_t>(ImageView16, const DerivativeKernels
                                             std::vector<float>&);
 
 void smooth_measures(const DerivativeKernels& kernels, LineSet& lines, std::vector<StripePoint>& scratch) {
-  const auto reach = static_cast<std::ptrdiff_t>(std::lround(1.5 * kernels.sigma));
-  for (const LineRange& r : lines.lines) {
-    scratch.assign(lines.points.begin() + static_cast<std::ptrdiff_t>(r.begin),
-                   lines.points.begin() + static_cast<std::ptrdiff_t>(r.end));
-    const auto count = static_cast<std::ptrdiff_t>(scratch.size());
-    for (std::ptrdiff_t i = 0; i < count; ++i) {
-      double width = 0, intensity = 0;
+  const auto reach = static_cast<std::size_t>(std::lround(1.5 * kernels.sigma));
+  scratch.assign(lines.points.begin(), lines.points.end());
+  for (const LineRange& r : lines.lines)
+    for (std::size_t i = r.begin; i < r.end; ++i) {
+      double foot = 0, half = 0, intensity = 0;
       int used = 0;
-      for (std::ptrdiff_t k = std::max<std::ptrdiff_t>(0, i - reach); k <= std::min(count - 1, i + reach);
-           ++k) {
-        const StripePoint& p = scratch[static_cast<std::size_t>(k)];
-        if ((p.flags & kStripeBridged) != 0) continue;
-        width += p.width;
-        intensity += p.intensity;
+      for (std::size_t k = std::max(r.begin + reach, i) - reach; k < std::min(r.end, i + reach + 1); ++k) {
+        if ((scratch[k].flags & kStripeBridged) != 0) continue;
+        foot += scratch[k].width;
+        half += static_cast<double>(lines.half_level_widths[k]);
+        intensity += static_cast<double>(scratch[k].intensity);
         ++used;
       }
       if (used == 0) continue;
-      StripePoint& p = lines.points[r.begin + static_cast<std::size_t>(i)];
-      p.width = width / used;
-      p.intensity = static_cast<float>(intensity / used);
+      lines.points[i].width = bar_width(foot / used, half / used);
+      lines.points[i].intensity = static_cast<float>(intensity / used);
     }
-  }
 }
 
 void predict_errors(const DerivativeKernels& kernels, double noise, LineSet& lines) {

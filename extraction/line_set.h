@@ -20,10 +20,13 @@ struct LineRange {
 struct LineSet {
   std::vector<StripePoint> points;
   std::vector<LineRange> lines;
+  std::vector<float>
+      half_level_widths;  ///< px, one a point once they are measured: full width at half the peak
 
   void clear() {
     points.clear();
     lines.clear();
+    half_level_widths.clear();
   }
 };
 

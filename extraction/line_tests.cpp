@@ -34,9 +34,8 @@ struct Trial {
 };
 
 /// Whether the stripe itself is there, unsmoothed: the kernels see a line's end up to sigma beyond it.
-bool is_lit(const Trial& t, const LineRange& r, std::size_t i, const StripePoint& p) {
-  const double expected = p.strength / t.kernels.matched_strength();
-  return t.contrast(r, i) >= std::max(2.5 * kTopNoise * t.noise, 0.12 * expected);
+bool is_lit(const Trial& t, const LineRange& r, std::size_t i) {
+  return t.contrast(r, i) >= 2.5 * kTopNoise * t.noise;
 }
 
 /// Cuts unlit and bridged points off both ends. A lit end has half the contrast of the line a little further
@@ -44,7 +43,7 @@ bool is_lit(const Trial& t, const LineRange& r, std::size_t i, const StripePoint
 LineRange trimmed(const Trial& t, const LineSet& lines, LineRange r) {
   const auto inside = static_cast<std::size_t>(std::lround(2.0 * t.kernels.sigma)) + 1;
   const auto bad = [&](std::size_t i, std::size_t further_in) {
-    return (lines.points[i].flags & kStripeBridged) != 0 || !is_lit(t, r, i, lines.points[i]) ||
+    return (lines.points[i].flags & kStripeBridged) != 0 || !is_lit(t, r, i) ||
            t.contrast(r, i) < 0.5 * t.contrast(r, further_in);
   };
   while (r.size() > inside && bad(r.begin, r.begin + inside)) ++r.begin;
@@ -77,45 +76,66 @@ void keep(Trial& t, const LineSet& lines, LineRange r) {
   const std::size_t begin = kept.points.size();
   kept.points.insert(kept.points.end(), lines.points.begin() + static_cast<std::ptrdiff_t>(r.begin),
                      lines.points.begin() + static_cast<std::ptrdiff_t>(r.end));
+  kept.half_level_widths.insert(kept.half_level_widths.end(),
+                                lines.half_level_widths.begin() + static_cast<std::ptrdiff_t>(r.begin),
+                                lines.half_level_widths.begin() + static_cast<std::ptrdiff_t>(r.end));
   kept.lines.push_back({begin, kept.points.size()});
+}
+
+/// Share of the range's points that have one of these flags.
+double flagged_share(const LineSet& lines, const LineRange& r, int flags) {
+  std::size_t flagged = 0;
+  for (std::size_t i = r.begin; i < r.end; ++i) flagged += (lines.points[i].flags & flags) != 0 ? 1U : 0U;
+  return static_cast<double>(flagged) / static_cast<double>(r.size());
+}
+
+/// The bad stretches of a line, those closer than `least_run` good points joined.
+void find_bad_stretches(Trial& t, const LineSet& lines, const LineRange& r, std::size_t least_run,
+                        std::vector<BadStretch>& stretches) {
+  const double width = median_width(t, lines, r);
+  const double spot_width = t.options.spot_width_ratio * width;
+  // Where the line itself is not clipped, a clipped stretch needs less to be a spot.
+  const bool clipped_is_odd = flagged_share(lines, r, kStripeSaturated) < 0.25;
+  const double clipped_spot_width = clipped_is_odd ? 0.5 * (width + spot_width) : spot_width;
+  stretches.clear();
+  for (std::size_t i = r.begin; i < r.end; ++i) {
+    const StripePoint &p = lines.points[i], &a = lines.points[i > r.begin ? i - 1 : i],
+                      &b = lines.points[i + 1 < r.end ? i + 1 : i];
+    const bool clipped = (p.flags & kStripeSaturated) != 0;
+    const bool wide =
+        Trial::median_of_three(a.width, p.width, b.width) > (clipped ? clipped_spot_width : spot_width);
+    if (!wide && is_lit(t, r, i)) continue;
+    if (stretches.empty() || i - stretches.back().last > (wide || stretches.back().spot ? least_run : 1))
+      stretches.push_back({i, i, wide});
+    stretches.back().last = i;
+    stretches.back().spot = stretches.back().spot || wide;
+  }
 }
 
 /// Bright spots on the line: bridged where both sides agree, else the line is cut there. Long unlit stretches
 /// cut, too.
 void mend_or_cut(Trial& t, LineSet& lines, const LineRange& whole) {
-  LineRange r = trimmed(t, lines, whole);
+  const LineRange r = trimmed(t, lines, whole);
   if (r.size() < 3) return;
-  const double spot_width = t.options.spot_width_ratio * median_width(t, lines, r);
   const auto longest = static_cast<std::size_t>(t.options.max_spot_widths * t.full_width);
   const auto margin = static_cast<std::size_t>(std::lround(t.kernels.sigma));
-  const auto wide = [&](std::size_t i) {
-    const std::size_t a = i > r.begin ? i - 1 : i, b = i + 1 < r.end ? i + 1 : i;
-    return Trial::median_of_three(lines.points[a].width, lines.points[i].width, lines.points[b].width) >
-           spot_width;
-  };
-  const auto bad = [&](std::size_t i) { return wide(i) || !is_lit(t, r, i, lines.points[i]); };
+  const auto least_run = static_cast<std::size_t>(std::lround(1.5 * t.full_width));
+  find_bad_stretches(t, lines, r, least_run, t.w.stretches);
   std::size_t begin = r.begin;
-  for (std::size_t i = r.begin; i < r.end;) {
-    if (!bad(i)) {
-      ++i;
+  for (const BadStretch& bad : t.w.stretches) {
+    if (!bad.spot && bad.last - bad.first < longest) {
+      // Dark, but the kernels followed a ridge there: it stays as a bridge.
+      for (std::size_t k = bad.first; k <= bad.last; ++k) lines.points[k].flags |= kStripeBridged;
       continue;
     }
-    std::size_t last = i;  // stretches closer than two margins are one
-    bool spot = wide(i);
-    for (std::size_t k = i; k < r.end && k <= last + 2 * margin + 1; ++k)
-      if (bad(k)) {
-        last = k;
-        spot = spot || wide(k);
-      }
-    const std::size_t grown = spot ? margin : 0;
-    const std::size_t before = i > begin + grown + 1 ? i - 1 - grown : begin;
-    const std::size_t after = std::min(last + 1 + grown, r.end);
-    const bool inside = before > begin && after < r.end;
-    if (!inside || after - before > longest || !bridge_stretch(lines.points, before, after)) {
-      keep(t, lines, {begin, before});
-      begin = after;
-    }
-    i = std::max(after, i + 1);
+    const std::size_t grown = bad.spot ? margin + 1 : 1;
+    const std::size_t before = bad.first > begin + grown ? bad.first - grown : begin;
+    const std::size_t after = std::min(bad.last + grown, r.end);
+    // A short rest behind a spot is the spot's own tip.
+    const bool inside = before >= begin + least_run && after + least_run <= r.end;
+    if (inside && bad.last - bad.first < longest && bridge_stretch(lines.points, before, after)) continue;
+    keep(t, lines, {begin, before});
+    begin = after;
   }
   keep(t, lines, {begin, r.end});
 }
@@ -128,11 +148,16 @@ double line_length(const LineSet& lines, const LineRange& r) {
   return length;
 }
 
-double median_intensity(Trial& t, const LineSet& lines, const LineRange& r) {
+/// The intensity that a quarter of the points exceed: half of a line over a checkerboard lies on black
+/// squares.
+double typical_intensity(Trial& t, const LineSet& lines, const LineRange& r) {
   t.w.scratch.clear();
   for (std::size_t i = r.begin; i < r.end; ++i)
     if ((lines.points[i].flags & kStripeBridged) == 0) t.w.scratch.push_back(lines.points[i].intensity);
-  return median_of(t.w.scratch);
+  if (t.w.scratch.empty()) return 0;
+  const auto upper = t.w.scratch.begin() + static_cast<std::ptrdiff_t>(t.w.scratch.size() * 3 / 4);
+  std::nth_element(t.w.scratch.begin(), upper, t.w.scratch.end());
+  return *upper;
 }
 
 /// Length and width tests, which need no other line; a short line has to be the more regular.
@@ -161,10 +186,10 @@ Reference strong_stripe(Trial& t, const LineSet& lines) {
   for (const LineRange& r : lines.lines)
     reference.intensity =
         std::max(reference.intensity,
-                 median_intensity(t, lines, r) * std::min(1.0, line_length(lines, r) / full_length));
+                 typical_intensity(t, lines, r) * std::min(1.0, line_length(lines, r) / full_length));
   double sum = 0, weights = 0;
   for (const LineRange& r : lines.lines) {
-    if (median_intensity(t, lines, r) < 0.5 * reference.intensity) continue;
+    if (typical_intensity(t, lines, r) < 0.5 * reference.intensity) continue;
     sum += median_width(t, lines, r) * static_cast<double>(r.size());
     weights += static_cast<double>(r.size());
   }
@@ -172,21 +197,14 @@ Reference strong_stripe(Trial& t, const LineSet& lines) {
   return reference;
 }
 
-/// Share of points that were bridged or whose flanks differ: small on a stripe, large on stains and edges.
-double irregular_share(const LineSet& lines, const LineRange& r) {
-  std::size_t irregular = 0;
-  for (std::size_t i = r.begin; i < r.end; ++i)
-    irregular += (lines.points[i].flags & (kStripeBridged | kStripeAsymmetric)) != 0 ? 1U : 0U;
-  return static_cast<double>(irregular) / static_cast<double>(r.size());
-}
-
 /// Brightness against the strong lines: weak lines have to be regular and as wide as the strong ones.
 bool is_bright_enough(Trial& t, const LineSet& lines, const LineRange& r, const Reference& reference) {
-  const double intensity = median_intensity(t, lines, r), share = intensity / reference.intensity;
+  const double intensity = typical_intensity(t, lines, r), share = intensity / reference.intensity;
   if (intensity < t.options.min_contrast_to_noise * t.noise || share < t.options.min_contrast) return false;
   if (share > t.options.clear_contrast) return true;
   const double ratio = median_width(t, lines, r) / reference.width;
-  return irregular_share(lines, r) < 0.2 && ratio > 0.65 && ratio < 1.5;
+  // Bridges and uneven flanks are rare on a stripe, frequent on stains and edges.
+  return flagged_share(lines, r, kStripeBridged | kStripeAsymmetric) < 0.2 && ratio > 0.65 && ratio < 1.5;
 }
 
 }  // namespace

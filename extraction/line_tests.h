@@ -19,7 +19,7 @@ struct LineTestOptions {
   double clear_contrast = 0.4;       ///< below this share a line must also be regular and of the usual width
   double min_contrast_to_noise = 3;  ///< weakest line: median contrast over the image noise
   double max_width_ratio = 2.0;      ///< a line's width against the stripes' width, and the other way round
-  double spot_width_ratio = 1.7;  ///< a stretch so much wider than its line is a bright spot, not the stripe
+  double spot_width_ratio = 1.5;  ///< a stretch so much wider than its line is a bright spot, not the stripe
   int max_spot_widths = 10;       ///< longest spot that is bridged, in full stripe widths
 };
 
@@ -35,10 +35,17 @@ void visit_fields(V&& v, LineTestOptions& o) {
   v("max_spot_widths", o.max_spot_widths, "longest spot that is bridged, in full stripe widths");
 }
 
-/// Scratch memory, one entry a point.
+/// A stretch of bad points, [first, last].
+struct BadStretch {
+  std::size_t first = 0, last = 0;
+  bool spot = false;  ///< wider than the stripe; else unlit
+};
+
+/// Scratch memory.
 struct LineTestWorkspace {
-  std::vector<float> contrast;  ///< grey levels over the brighter side; 0 for bridged points
+  std::vector<float> contrast;  ///< one a point, grey levels over the brighter side; 0 for bridged points
   std::vector<float> scratch;
+  std::vector<BadStretch> stretches;
   LineSet kept;
 };
 

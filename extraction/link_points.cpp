@@ -29,8 +29,10 @@ class Linker {
     StripePoint out;
     out.x = p.x + static_cast<double>(map_.offset_x[i]);
     out.y = p.y + static_cast<double>(map_.offset_y[i]);
-    out.normal_x = map_.normal_x[i];
-    out.normal_y = map_.normal_y[i];
+    // Kept in single precision: made a unit vector again.
+    const double length = std::hypot(map_.normal_x[i], map_.normal_y[i]);
+    out.normal_x = map_.normal_x[i] / length;
+    out.normal_y = map_.normal_y[i] / length;
     out.strength = map_.strength[i];
     return out;
   }

@@ -16,6 +16,7 @@ constexpr int kReach = 28;  // px: stripes up to about this half width are found
 struct WidthSample {
   double width = 0;
   double contrast = 0;
+  double weight() const { return std::pow(contrast / width, 3); }
 };
 
 /// Grey level at the centre, and from it in each direction the distance to the width level above the lowest
@@ -99,14 +100,18 @@ std::optional<double> estimate_stripe_width(ImageView<T> image, double level, do
   for (int x = column_step / 2; x < image.width; x += column_step)
     sample_maxima(image, false, x, level, contrast, samples);
   if (samples.empty()) return std::nullopt;
-  double strongest = 0;
-  for (const WidthSample& s : samples) strongest = std::max(strongest, s.contrast);
-  std::vector<double> widths;
-  for (const WidthSample& s : samples)
-    if (s.contrast >= 0.25 * strongest) widths.push_back(s.width);
-  const auto middle = widths.begin() + static_cast<std::ptrdiff_t>(widths.size() / 2);
-  std::nth_element(widths.begin(), middle, widths.end());
-  return *middle;
+  // The median, each sample weighted by its sharpness cubed: stripes are the sharpest bars of an image,
+  // squares of a board may be as bright and many more, but are wider.
+  std::sort(samples.begin(), samples.end(),
+            [](const WidthSample& a, const WidthSample& b) { return a.width < b.width; });
+  double total = 0;
+  for (const WidthSample& s : samples) total += s.weight();
+  double sum = 0;
+  for (const WidthSample& s : samples) {
+    sum += s.weight();
+    if (sum >= 0.5 * total) return s.width;
+  }
+  return samples.back().width;
 }
 
 template std::optional<double> estimate_stripe_width<std::uint8_t>(ImageView8, double, double);

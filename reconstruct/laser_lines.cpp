@@ -55,6 +55,7 @@ LinePosition line_position(const Plane& plane, const Vector2d& across, const Vec
 
 std::vector<double> positions_at(const std::vector<LinePosition>& lines, double inverse_depth) {
   std::vector<double> positions;
+  positions.reserve(lines.size());
   for (const LinePosition& line : lines) positions.push_back(line.at(inverse_depth));
   return positions;
 }
@@ -107,8 +108,10 @@ std::optional<std::vector<int>> assign_laser_planes(const std::vector<Stripe>& s
   for (const Stripe& s : stripes)
     centre += mean_position(s, sensor.camera) / static_cast<double>(stripes.size());
   std::vector<double> positions;
+  positions.reserve(stripes.size());
   for (const Stripe& s : stripes) positions.push_back(across->dot(mean_position(s, sensor.camera) - centre));
   std::vector<LinePosition> lines;
+  lines.reserve(planes.size());
   for (const Plane& plane : planes) lines.push_back(line_position(plane, *across, centre));
 
   const std::vector<int> stripe_order = sorted_indices(positions);

@@ -15,7 +15,7 @@ using Eigen::Vector3d;
 
 constexpr double kSheetReach = 5;  // sigmas; beyond, the laser adds less than a thousandth of a grey level
 constexpr double kAmbientFloor = 0.4;  // light that reaches a surface from everywhere
-constexpr float kSmooth = 0.2F;        // grey levels between neighbours that one ray a pixel can stand for
+constexpr float kBend = 0.2F;  // second difference, grey levels: a 24th of it is what a single ray errs by
 
 /// Lambert and Phong for light of strength 1 from the unit direction `to_light`.
 double reflected(const SurfaceHit& hit, const Vector3d& to_light, const Vector3d& to_eye) {
@@ -63,14 +63,13 @@ Image<float> render_centres(const World& world, const View& view, const RayGrid&
   return out;
 }
 
-bool changes_around(const Image<float>& image, int x, int y) {
-  float low = image(x, y), high = low;
-  for (int dy = -1; dy <= 1; ++dy)
-    for (int dx = -1; dx <= 1; ++dx) {
-      low = std::min(low, image(x + dx, y + dy));
-      high = std::max(high, image(x + dx, y + dy));
-    }
-  return high - low > kSmooth;
+/// Whether the picture bends more around a pixel than a single ray can stand for; even slopes do not count.
+bool bends_at(const Image<float>& image, int x, int y) {
+  const float twice = 2 * image(x, y);
+  const auto bend = [&](int dx, int dy) {
+    return std::abs(image(x - dx, y - dy) + image(x + dx, y + dy) - twice);
+  };
+  return std::max(std::max(bend(1, 0), bend(0, 1)), std::max(bend(1, 1), bend(1, -1))) > kBend;
 }
 
 /// Grey levels between the means of two halves of the samples above which a sharp edge crosses the pixel.
@@ -105,7 +104,7 @@ Image<float> integrate_pixels(const Eyepiece& eye, const Image<float>& centres) 
   Image<float> out = centres;
   for (int y = 1; y + 1 < centres.height; ++y)
     for (int x = 1; x + 1 < centres.width; ++x) {
-      if (!changes_around(centres, x, y)) continue;
+      if (!bends_at(centres, x, y)) continue;
       const auto [level, contrast] = eye.mean(pattern, x, y);
       out(x, y) = static_cast<float>(contrast > kSharp ? eye.mean(fine, x, y).first : level);
     }

@@ -48,6 +48,40 @@ void meet_board(const BoardSurface& board, const Ray& ray, std::optional<Surface
       {s, falling > 0 ? Vector3d(-normal) : normal, {falling > 0 ? *albedo : board.black_albedo, 0, 1}});
 }
 
+/// A circle around a run of segments.
+BoundedRun bounded(const Outline& segments) {
+  BoundedRun run{segments, Vector2d::Zero(), 0};
+  const std::vector<OutlineSample> points = sample(segments, 1.0);
+  Vector2d low = points.front().position, high = low;
+  for (const OutlineSample& point : points) {
+    low = low.cwiseMin(point.position);
+    high = high.cwiseMax(point.position);
+  }
+  run.center = 0.5 * (low + high);
+  for (const OutlineSample& point : points)
+    run.radius = std::max(run.radius, (point.position - run.center).norm());
+  run.radius += 1.0;  // samples lie at most that far apart
+  return run;
+}
+
+bool misses(const BoundedRun& run, const Vector2d& origin, const Vector2d& direction) {
+  const Vector2d to_center = run.center - origin;
+  const double offset = direction.x() * to_center.y() - direction.y() * to_center.x();
+  return offset * offset > run.radius * run.radius * direction.squaredNorm();
+}
+
+/// As first_hit() of the whole outline.
+std::optional<OutlineHit> first_hit_of_runs(const Extrusion& solid, const Vector2d& origin,
+                                            const Vector2d& direction, double min_s) {
+  std::optional<OutlineHit> nearest;
+  for (const BoundedRun& run : solid.runs) {
+    if (misses(run, origin, direction)) continue;
+    const std::optional<OutlineHit> hit = first_hit(run.segments, origin, direction, min_s);
+    if (hit && (!nearest || hit->s < nearest->s)) nearest = hit;
+  }
+  return nearest;
+}
+
 /// The flat ends of an extrusion of finite length.
 void meet_caps(const Extrusion& solid, const Ray& local, const Eigen::Matrix3d& R,
                std::optional<SurfaceHit>& nearest) {
@@ -55,7 +89,9 @@ void meet_caps(const Extrusion& solid, const Ray& local, const Eigen::Matrix3d& 
     const double s = (end * solid.length_mm - local.origin.x()) / local.direction.x();
     if (!(s > 0) || !std::isfinite(s)) continue;
     const Vector3d p = local.at(s);
-    if (!contains(solid.outline, Vector2d(p.y(), p.z()))) continue;
+    const Vector2d place(p.y(), p.z());
+    if ((place - solid.outline.center).norm() > solid.outline.radius) continue;
+    if (!contains(solid.outline.segments, place)) continue;
     keep_nearer(nearest,
                 {s, local.direction.x() > 0 ? Vector3d(-R.col(0)) : Vector3d(R.col(0)), solid.material});
   }
@@ -67,13 +103,11 @@ void meet_extrusion(const Extrusion& solid, const Ray& ray, std::optional<Surfac
                   R.transpose() * ray.direction};
   const Vector2d origin(local.origin.y(), local.origin.z()),
       direction(local.direction.y(), local.direction.z());
-  const Vector2d to_center = solid.bound_center - origin;
-  const double offset = direction.x() * to_center.y() - direction.y() * to_center.x();
-  if (offset * offset > solid.bound_radius * solid.bound_radius * direction.squaredNorm()) return;
+  if (misses(solid.outline, origin, direction)) return;
   if (solid.length_mm > 0) meet_caps(solid, local, R, nearest);
   double after = 0;
   // Beyond an end of the solid its mantle does not count: look for the next crossing.
-  while (const std::optional<OutlineHit> hit = first_hit(solid.outline, origin, direction, after)) {
+  while (const std::optional<OutlineHit> hit = first_hit_of_runs(solid, origin, direction, after)) {
     const double x = local.at(hit->s).x();
     if (solid.length_mm == 0 || std::abs(x) <= solid.length_mm / 2) {
       Vector3d normal = R * Vector3d(0, hit->normal.x(), hit->normal.y());
@@ -106,17 +140,14 @@ void meet_ground(const GroundObject& ground, const Ray& ray, std::optional<Surfa
 
 Extrusion make_extrusion(const Rigid3& world_from_solid, const Outline& outline, double length_mm,
                          const Material& material) {
-  Extrusion out{world_from_solid, outline, length_mm, material, Vector2d::Zero(), 0};
-  const std::vector<OutlineSample> points = sample(outline, 1.0);
-  Vector2d low = points.front().position, high = low;
-  for (const OutlineSample& point : points) {
-    low = low.cwiseMin(point.position);
-    high = high.cwiseMax(point.position);
+  Extrusion out{world_from_solid, bounded(outline), length_mm, material, {}};
+  const std::size_t count = outline.segments.size();
+  const auto size = static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(count))));
+  for (std::size_t first = 0; first < count; first += size) {
+    const auto begin = outline.segments.begin() + static_cast<std::ptrdiff_t>(first);
+    out.runs.push_back(
+        bounded({{begin, begin + static_cast<std::ptrdiff_t>(std::min(size, count - first))}}));
   }
-  out.bound_center = 0.5 * (low + high);
-  for (const OutlineSample& point : points)
-    out.bound_radius = std::max(out.bound_radius, (point.position - out.bound_center).norm());
-  out.bound_radius += 1.0;  // an arc bulges at most that far between samples
   return out;
 }
 

@@ -36,17 +36,23 @@ struct BoardSurface {
   double white_albedo = 1, black_albedo = 0;
 };
 
+/// A run of an outline's segments with a circle around it, so that rays can skip it.
+struct BoundedRun {
+  Outline segments;
+  Eigen::Vector2d center = Eigen::Vector2d::Zero();
+  double radius = 0;
+};
+
 /// An outline drawn out along its own x: section coordinates (u, v) are the solid's (y, z).
 struct Extrusion {
   Rigid3 world_from_solid;
-  Outline outline;
+  BoundedRun outline;
   double length_mm = 0;  ///< centred on the solid's origin; 0 = endless
   Material material;
-  Eigen::Vector2d bound_center;  ///< a circle around the outline, to skip it quickly
-  double bound_radius = 0;
+  std::vector<BoundedRun> runs;  ///< the outline in parts
 };
 
-/// Fills in the bounding circle.
+/// Splits the outline into bounded runs.
 Extrusion make_extrusion(const Rigid3& world_from_solid, const Outline& outline, double length_mm,
                          const Material& material);
 

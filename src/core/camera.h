@@ -15,8 +15,8 @@ namespace lightstripe {
 inline constexpr int kDistortionTerms = 14;
 
 struct Camera {
-  int width = 0;   ///< px
-  int height = 0;  ///< px
+  int width = 0;                          ///< px
+  int height = 0;                         ///< px
   double fx = 0, fy = 0, cx = 0, cy = 0;  ///< px
   std::array<double, kDistortionTerms> distortion{};
 
@@ -46,7 +46,8 @@ Eigen::Matrix<T, 2, 1> distort(const T* k, const Eigen::Matrix<T, 2, 1>& normali
 
 /// A point of the camera frame (mm, z > 0) to its pixel.
 template <class T>
-Eigen::Matrix<T, 2, 1> project(const T* fx_fy_cx_cy, const T* distortion, const Eigen::Matrix<T, 3, 1>& p_cam) {
+Eigen::Matrix<T, 2, 1> project(const T* fx_fy_cx_cy, const T* distortion,
+                               const Eigen::Matrix<T, 3, 1>& p_cam) {
   const Eigen::Matrix<T, 2, 1> d = distort<T>(distortion, {p_cam.x() / p_cam.z(), p_cam.y() / p_cam.z()});
   return {fx_fy_cx_cy[0] * d.x() + fx_fy_cx_cy[2], fx_fy_cx_cy[1] * d.y() + fx_fy_cx_cy[3]};
 }

@@ -12,7 +12,7 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kOnVertex_mm = 1e-12;  // nearer than this, the direction to a vertex is rounding noise
+constexpr double kOnVertex = 1e-12;  // mm; nearer than this, the direction to a vertex is rounding noise
 
 Vector2d foot_on_segment(const Vector2d& a, const Vector2d& b, const Vector2d& query) {
   const Vector2d along = b - a;
@@ -52,6 +52,11 @@ PolylineSearch::Cell PolylineSearch::cell_of(const Vector2d& p) const {
   return {static_cast<int>(cell.x()), static_cast<int>(cell.y())};
 }
 
+std::size_t PolylineSearch::index_of(int column, int row) const {
+  return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
+         static_cast<std::size_t>(column);
+}
+
 void PolylineSearch::insert(int segment) {
   // Every cell that the segment's bounding box touches: more than it passes, never fewer.
   const auto s = static_cast<std::size_t>(segment);
@@ -59,13 +64,13 @@ void PolylineSearch::insert(int segment) {
   const Cell b = cell_of(vertices_[s].cwiseMax(vertices_[s + 1]));
   for (int row = a.row; row <= b.row; ++row)
     for (int column = a.column; column <= b.column; ++column)
-      cells_[static_cast<std::size_t>(row * columns_ + column)].push_back(segment);
+      cells_[index_of(column, row)].push_back(segment);
 }
 
 void PolylineSearch::search_cell(const Vector2d& query, int column, int row, double& best_squared,
                                  int& best) const {
   if (column < 0 || row < 0 || column >= columns_ || row >= rows_) return;
-  for (int segment : cells_[static_cast<std::size_t>(row * columns_ + column)]) {
+  for (int segment : cells_[index_of(column, row)]) {
     const auto s = static_cast<std::size_t>(segment);
     const double squared = (query - foot_on_segment(vertices_[s], vertices_[s + 1], query)).squaredNorm();
     if (squared < best_squared || (squared == best_squared && segment < best))
@@ -90,11 +95,11 @@ PolylineFoot PolylineSearch::foot_on(int segment, const Vector2d& query) const {
   const Vector2d along = (b - a).normalized(), off = query - foot.position;
   const double distance = off.norm();
   foot.normal = Vector2d(along.y(), -along.x());
-  if ((foot.position == a || foot.position == b) && distance > kOnVertex_mm) {
+  if ((foot.position == a || foot.position == b) && distance > kOnVertex) {
     foot.normal = off / distance;
     const bool open = vertices_.front() != vertices_.back();
     const bool at_end = foot.position == vertices_.front() || foot.position == vertices_.back();
-    foot.beyond_end = open && at_end && std::abs(along.dot(off)) > kOnVertex_mm;
+    foot.beyond_end = open && at_end && std::abs(along.dot(off)) > kOnVertex;
   }
   foot.signed_distance = foot.normal.dot(off);
   return foot;

@@ -32,6 +32,7 @@ class PolylineSearch {
     int column, row;
   };
   Cell cell_of(const Eigen::Vector2d& p) const;
+  std::size_t index_of(int column, int row) const;
   void insert(int segment);
   /// The nearest segment among those of one ring of cells, if it beats `best_squared`.
   void search_ring(const Eigen::Vector2d& query, const Cell& centre, int ring, double& best_squared,

@@ -52,8 +52,7 @@ struct Step {
 /// normal matrix.
 Step alignment_step(std::span<const Vector2d> measured, const Feet& feet, const SectionMove& move,
                     const Vector2d& centre, double radius_mm, double scale) {
-  constexpr double kHeld =
-      1e-6;  // share of the largest eigenvalue below which a direction is not held by the shape
+  constexpr double kHeld = 1e-6;  // share of the largest eigenvalue below which the shape does not hold
   Matrix3d H = Matrix3d::Zero();
   Vector3d g = Vector3d::Zero();
   for (std::size_t i = 0; i < feet.size(); ++i) {
@@ -111,7 +110,7 @@ Vector2d SectionMove::operator*(const Vector2d& p) const {
 
 SectionAlignment align_section(std::span<const Vector2d> measured, std::span<const Vector2d> shape,
                                const SectionAlignmentOptions& options) {
-  constexpr double kSmallStep_mm = 1e-7;
+  constexpr double kSmallStep = 1e-7;  // mm
   LIGHTSTRIPE_CHECK(measured.size() >= 3, "an alignment needs three points");
   LIGHTSTRIPE_CHECK(options.far_mm > 0 && options.far_mm <= options.search_mm,
                     "far_mm must not exceed search_mm");
@@ -129,7 +128,7 @@ SectionAlignment align_section(std::span<const Vector2d> measured, std::span<con
     out.shape_from_measured =
         composed(out.shape_from_measured, step.change.x() / radius_mm, here, step.change.tail<2>());
     out.determined = step.determined;
-    out.converged = step.change.norm() < kSmallStep_mm;
+    out.converged = step.change.norm() < kSmallStep;
     feet = find_feet(measured, out.shape_from_measured, search);
   }
   judge(feet, options, out);

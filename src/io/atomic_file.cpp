@@ -63,9 +63,8 @@ void make_folder(const fs::path& folder, const fs::path& path) {
 /// A new empty file beside `path`; hidden, so that no pattern over the folder sees it.
 fs::path create_beside(const fs::path& path) {
   for (int attempt = 0;; ++attempt) {
-    const fs::path temporary =
-        path.parent_path() /
-        fmt::format(".{}.tmp-{}-{}{}", path.stem().string(), ::getpid(), attempt, path.extension().string());
+    fs::path temporary = path.parent_path() / fmt::format(".{}.tmp-{}-{}{}", path.stem().string(), ::getpid(),
+                                                          attempt, path.extension().string());
     const Descriptor created(::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
     if (created.get() >= 0) return temporary;
     if (errno != EEXIST || attempt == 10000)

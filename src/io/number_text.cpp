@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/number_text.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
 
 namespace lightstripe {
 namespace {
@@ -56,21 +58,20 @@ void append_decimals(std::string& out, double value, int decimals) {
   const std::int64_t power = kPowers.at(static_cast<std::size_t>(decimals));
   const double scaled = value * static_cast<double>(power);
   if (std::abs(scaled) > 9e15) return append_shortest(out, value);  // beyond 2^53 every double is whole
-  std::int64_t number = std::llround(scaled);
-  if (number < 0) {
-    out.push_back('-');
-    number = -number;
-  }
-  append_integer(out, number / power);
-  std::int64_t fraction = number % power;
-  if (fraction == 0) return;
-  std::array<char, 10> digits{'.'};
-  std::size_t used = 1;
-  for (std::int64_t place = power / 10; fraction != 0; place /= 10) {
-    digits.at(used++) = static_cast<char>('0' + fraction / place);
-    fraction %= place;
-  }
-  out.append(digits.data(), used);
+  const std::int64_t number = std::llround(scaled);
+  if (number < 0) out.push_back('-');
+  // The digits of the whole number, with zeros ahead so that one stands before the point.
+  std::array<char, 32> digits;
+  digits.fill('0');
+  char* const start = digits.data() + 10;
+  const char* const end = std::to_chars(start, digits.data() + digits.size(), std::abs(number)).ptr;
+  const char* const point = end - decimals;
+  out.append(std::min<const char*>(start, point - 1), point);
+  const std::string_view fraction(point, static_cast<std::size_t>(decimals));
+  const std::size_t used = fraction.find_last_not_of('0') + 1;  // 0 where all are zeros
+  if (used == 0) return;
+  out.push_back('.');
+  out.append(fraction.substr(0, used));
 }
 
 }  // namespace lightstripe

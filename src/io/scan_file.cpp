@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The lightstripe authors
 // SPDX-License-Identifier: Apache-2.0
 // The scan half of session_file.h.
+#include <fmt/format.h>
+
 #include <set>
 
 #include "core/error.h"
@@ -75,7 +77,8 @@ Scan read_scan(const std::filesystem::path& path) {
                 "give each sensor its images, e.g. frames: {gauge: scan/*.png}");
   for (const auto& [sensor, pattern] : fields.frames)
     if (pattern.empty())
-      throw Error(file + ": frames." + sensor, "is empty", "give a file pattern or a video file");
+      throw Error(fmt::format("{}: frames.{}", file, sensor), "is empty",
+                  "give a file pattern or a video file");
   Scan scan;
   scan.folder = path.parent_path();
   scan.rig = fields.rig;

@@ -10,11 +10,7 @@
 #include "io/number_text.h"
 
 namespace lightstripe {
-namespace {
 
-constexpr double kUnitTolerance = 1e-3;
-
-/// A cell as it stands, or in quotes where it would be misread.
 std::string csv_cell(std::string_view text) {
   const bool plain = text.find_first_of(",\"\r\n") == std::string_view::npos && !text.empty() &&
                      text.front() != '#' && text.front() != ' ' && text.back() != ' ';
@@ -26,6 +22,10 @@ std::string csv_cell(std::string_view text) {
   }
   return cell + '"';
 }
+
+namespace {
+
+constexpr double kUnitTolerance = 1e-3;
 
 /// Each cell but the last of a row: number and comma.
 void append_cell(std::string& out, double value, int decimals) {

@@ -18,6 +18,9 @@
 
 namespace lightstripe {
 
+/// A cell as it stands, or in quotes where it would be misread.
+std::string csv_cell(std::string_view text);
+
 /// image (file name) -> position. `column` is "travel_mm" or "angle_deg". Duplicate images, NaN, short rows:
 /// Error with line.
 std::map<std::string, double> read_image_travel(const std::filesystem::path& path, std::string_view column);

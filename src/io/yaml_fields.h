@@ -97,4 +97,5 @@ void write_field(YamlNode& node, const T& object);
 }  // namespace detail
 }  // namespace lightstripe
 
-#include "io/yaml_fields-inl.h"
+#include "io/yaml_read-inl.h"
+#include "io/yaml_write-inl.h"

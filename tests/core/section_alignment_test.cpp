@@ -135,11 +135,14 @@ TEST(AlignSection, AlongAStraightLineNothingIsMoved) {
 }
 
 TEST(AlignSection, PointsPastAnOpenEndDoNotPull) {
+  // The legs end at 50; the last points of both lie past them, near enough to count as good ones.
   const std::vector<Vector2d> shape{{0, 50}, {0, 0}, {50, 0}};
   std::vector<Vector2d> measured;
-  for (int i = 1; i < 26; ++i)
-    measured.emplace_back(0, 2 * i), measured.emplace_back(2 * i + 2, 0);  // to (52, 0)
+  for (int i = 1; i < 25; ++i) measured.emplace_back(0, 2 * i), measured.emplace_back(2 * i, 0);
+  for (int i = 1; i < 9; ++i)
+    measured.emplace_back(50 + 0.01 * i, 0), measured.emplace_back(0, 50 + 0.01 * i);
   const auto found = align_section(measured, shape);
+  EXPECT_TRUE(found.converged);
   EXPECT_LT(found.shape_from_measured.translation.norm(), 1e-9);
 }
 

@@ -163,47 +163,4 @@ inline Score score(const std::vector<Curve>& curves, const std::vector<Stripe>& 
   return s;
 }
 
-struct Scene {
-  Canvas canvas;
-  std::vector<Curve> truth;
-};
-
-/// The paper's four kinds of scene, rebuilt: two lines on a wheel, crossed lines on a plate, three on a pipe,
-/// five on a rail.
-inline Scene paper_scene(int kind, double sigma = 3.0) {
-  Scene scene{Canvas(960, 700, 4.0), {}};
-  const auto add = [&](const std::function<CurvePoint(double)>& at) {
-    scene.truth.push_back(make_curve(at));
-  };
-  if (kind == 0) {
-    for (const double y : {220.0, 450.0})
-      add([=](double u) {
-        const double x = 60 + 840 * u;
-        return CurvePoint{x, y - 90 * std::exp(-std::pow((x - 330) / 60, 2)) + 40 * u * u,
-                          90 + 70 * std::sin(7 * u), sigma};
-      });
-    scene.canvas.add_blob(600, 330, 14, 9, 0.5, 400);
-    scene.canvas.add_blob(250, 560, 7, 7, 0, 400);
-  } else if (kind == 1) {
-    add([=](double u) { return CurvePoint{80 + 800 * u, 120 + 450 * u, 150, sigma}; });
-    add([=](double u) { return CurvePoint{870 - 780 * u, 90 + 500 * u, 130, sigma}; });
-  } else if (kind == 2) {
-    for (const double y : {180.0, 340.0, 500.0})
-      add([=](double u) {
-        const double x = 100 + 760 * u, c = (x - 480) / 420;
-        return CurvePoint{x, y + 120 * (1 - std::sqrt(1 - 0.8 * c * c)), 170 * (1 - 0.7 * c * c), sigma};
-      });
-  } else {
-    for (int k = 0; k < 5; ++k)
-      add([=](double u) {
-        const double y = 40 + 620 * u, bend = 1 / (1 + std::exp(-(y - 300) / 18));
-        return CurvePoint{130 + 150 * k + 70 * bend + 20 * std::sin(3 * u + k), y,
-                          60 + 25 * k + 40 * std::cos(9 * u), sigma};
-      });
-    scene.canvas.add_blob(60, 80, 18, 6, 0.3, 300);
-  }
-  for (const Curve& curve : scene.truth) scene.canvas.add(curve);
-  return scene;
-}
-
 }  // namespace lightstripe::scenes

@@ -243,6 +243,9 @@ TEST(ChannelAuto, TakesGreyWhereThereIsNoColour) {
   cv::Mat tinted = board_with_line({});
   cv::add(tinted, cv::Scalar(0, 0, 50), tinted);  // a wrong white balance is no line
   EXPECT_EQ(chosen_for(tinted), Channel::kGray);
+  cv::Mat noisy = noise(300, 200, CV_8UC3, 11) / 8;  // 0..31, channel by channel, as of a dim colour camera
+  cv::add(noisy, cv::Scalar::all(60), noisy);
+  EXPECT_EQ(chosen_for(noisy), Channel::kGray);
 }
 
 TEST(ChannelAuto, AGreyPictureInThreeChannelsKeepsItsValues) {

@@ -21,6 +21,8 @@ TEST(NaturalLess, ComparesRunsOfDigitsAsNumbers) {
   EXPECT_TRUE(natural_less("img_2", "img_10"));
   EXPECT_FALSE(natural_less("img_10", "img_2"));
   EXPECT_TRUE(natural_less("a2b10", "a2b11"));
+  EXPECT_TRUE(natural_less("007", "10"));
+  EXPECT_FALSE(natural_less("0010", "9"));
   EXPECT_TRUE(natural_less("a", "a1"));
   EXPECT_TRUE(natural_less("9", "a"));
   EXPECT_TRUE(natural_less("99999999999999999999998", "99999999999999999999999"));

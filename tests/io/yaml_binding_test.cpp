@@ -134,6 +134,13 @@ TEST(YamlBinding, LeavesWhatIsNotGiven) {
   EXPECT_EQ(out.maybe, std::nullopt);
 }
 
+TEST(YamlBinding, TakesWindowsLinesAndAByteOrderMark) {
+  const Everything out = read("\xef\xbb\xbfname: a b\r\ninner:\r\n  sigma: 3 # px\r\nlist:\r\n  - 1\r\n");
+  EXPECT_EQ(out.name, "a b");
+  EXPECT_EQ(out.inner.sigma, 3);
+  EXPECT_THAT(out.list, ElementsAre(1));
+}
+
 TEST(YamlBinding, NamesFileKeyAndLineOfAnUnknownKeyAndTheNearestOne) {
   EXPECT_EQ(complaint("flag: true\ninner:\n  sgma: 3\n"),
             "a.yaml: inner.sgma (line 3): unknown key; did you mean 'sigma'? allowed: sigma, count");
@@ -254,6 +261,14 @@ TEST(YamlBinding, DumpReadsBackToTheSameBits) {
   EXPECT_EQ(after.frames, before.frames);
   EXPECT_EQ(after.wide, before.wide);
   EXPECT_EQ(after.seed, before.seed);
+}
+
+TEST(YamlBinding, DumpQuotesTextsThatOtherToolsWouldTakeForNumbersOrWords) {
+  for (const char* name : {"007", "1e3", "true", "No", "null", "", " x", "*.png"}) {
+    Everything out;
+    out.name = name;
+    EXPECT_THAT(dump_yaml(out), HasSubstr("name: \"" + out.name + "\"\n"));
+  }
 }
 
 TEST(YamlBinding, DumpWithCommentsExplainsAndReadsBack) {

@@ -60,6 +60,29 @@ TEST(AssignLaserPlanes, FanFromOneSourceOnASteppedSurfaceIsOrdered) {
               Optional(ElementsAre(1, 0)));
 }
 
+TEST(AssignLaserPlanes, SheetsThatCrossInDepthAreOrderedAtTheStripesDepth) {
+  // From (200, 0, 0) and (150, 0, 0), both aimed at x = 0, z = 450: before it the one is on the right, behind
+  // it left.
+  const auto sheet = [](double source) { return canonical({{450, 0, source}, 450 * source}); };
+  const auto sensor = sensor_with({sheet(200), sheet(150)});
+  const auto column = [](double source, double z) { return 320 + 1000 * source * (1 - z / 450) / z; };
+  for (double z : {380.0, 520.0}) {
+    EXPECT_THAT(assign_laser_planes({upright(column(200, z)), upright(column(150, z))}, sensor),
+                Optional(ElementsAre(0, 1)));
+    EXPECT_THAT(assign_laser_planes({upright(column(150, z)), upright(column(200, z))}, sensor),
+                Optional(ElementsAre(1, 0)));
+  }
+}
+
+TEST(AssignLaserPlanes, OfSeveralDepthsTheOneThatExplainsAllStripesDecides) {
+  // x = 120 and x = 100, and a slanted sheet from (500, 0, 0) that passes between them at z = 500 only: x =
+  // 110. Columns there 560, 520, 540; nearer or farther the slanted one lies outside the two.
+  const Plane slanted = canonical({{500, 0, 390}, 500 * 500});
+  const auto sensor = sensor_with({slanted, {Vector3d::UnitX(), 120}, {Vector3d::UnitX(), 100}});
+  EXPECT_THAT(assign_laser_planes({upright(520), upright(540), upright(560)}, sensor),
+              Optional(ElementsAre(2, 0, 1)));
+}
+
 TEST(AssignLaserPlanes, AnotherNumberOfStripesIsNotGuessed) {
   const auto sensor = sensor_with({{Vector3d::UnitX(), 100}, {Vector3d::UnitX(), 140}});
   EXPECT_FALSE(assign_laser_planes({upright(520)}, sensor));

@@ -8,6 +8,7 @@
 #include <atomic>
 #include <bit>
 #include <chrono>
+#include <cmath>
 #include <thread>
 
 #include "core/error.h"
@@ -242,6 +243,41 @@ TEST(ScanProfiles, AStopEndsTheRunAfterTheFramesUnderWay) {
   EXPECT_EQ(summary.frames, frames);
   EXPECT_GE(frames, 31);
   EXPECT_LE(frames, 31 + 2 * 2);
+}
+
+// A level stripe with a Gaussian section of 2 px, its centre at this row.
+Image8 picture_of_level_stripe(double row) {
+  Image8 image(240, 120, 0);
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x)
+      image(x, y) =
+          static_cast<std::uint8_t>(std::lround(10 + 200 * std::exp(-0.125 * (y - row) * (y - row))));
+  return image;
+}
+
+TEST(ScanProfiles, PicturesOfAStripeBecomeSectionsByTheRealExtraction) {
+  // Sheet y = 100 mm and f = 1000 px: a stripe at row 60 + 200 + shift lies at z = 100 * 1000 / (200 +
+  // shift).
+  Rig rig;
+  rig.sensors.push_back(
+      {"gauge", {240, 120, 1000, 1000, 120, -140, {}}, {{Eigen::Vector3d::UnitY(), 100}}, {}});
+  ScanInput input;
+  input.num_frames = 8;
+  input.read = [](std::int64_t frame, int) {
+    return picture_of_level_stripe(60 + 0.37 * static_cast<double>(frame));
+  };
+  input.position = [](std::int64_t) { return FramePosition{}; };
+  ExtractionOptions options;
+  options.stripe_width = 2 * std::sqrt(3.0) * 2;
+  std::int64_t frames = 0;
+  scan_profiles(input, rig, options, 2, [&](const Profile& profile) {
+    const double z = 100 * 1000 / (200 + 0.37 * static_cast<double>(profile.frame));
+    EXPECT_GT(profile.points.size(), 200u);
+    // 0.02 px (rounding to 8 bits, no noise) are 0.02 * z^2 / 1e5 = 0.05 mm.
+    for (const auto& p : profile.points) EXPECT_NEAR(p.v, z, 0.05);
+    ++frames;
+  });
+  EXPECT_EQ(frames, 8);
 }
 
 TEST(ScanProfiles, NegativeThreadsAreTheCallersFault) {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The lightstripe authors
 // SPDX-License-Identifier: Apache-2.0
-// Bodies of the templates of yaml_fields.h.
+// Bodies of the reading templates of yaml_fields.h, and the override of one field.
 #pragma once
 
 #include "io/yaml_fields.h"
@@ -85,64 +85,8 @@ void read_field(const YamlNode& node, T& object, const YamlPlace& place) {
   reader.refuse_unknown();
 }
 
-template <HasEnumNames E>
-void write_field(YamlNode& node, const E& value) {
-  write_field(node, std::string(enum_name(value)));
-}
-
 template <class T>
-void write_field(YamlNode& node, const std::optional<T>& value) {
-  if (value) write_field(node, *value);
-}
-
-template <class T>
-void write_field(YamlNode& node, const std::vector<T>& values) {
-  node.kind = YamlNode::Kind::kSequence;
-  for (const T& value : values) write_field(node.items.emplace_back(), value);
-}
-
-template <class T>
-void write_field(YamlNode& node, const std::vector<std::pair<std::string, T>>& map) {
-  node.kind = YamlNode::Kind::kMap;
-  for (const auto& [key, value] : map) {
-    node.items.emplace_back().key = key;
-    write_field(node.items.back(), value);
-  }
-}
-
-template <class T, std::size_t N>
-void write_field(YamlNode& node, const std::array<T, N>& values) {
-  node.kind = YamlNode::Kind::kSequence;
-  for (const T& value : values) write_field(node.items.emplace_back(), value);
-}
-
-template <int N>
-void write_field(YamlNode& node, const Eigen::Matrix<double, N, 1>& values) {
-  node.kind = YamlNode::Kind::kSequence;
-  for (int i = 0; i < N; ++i) write_field(node.items.emplace_back(), values[i]);
-}
-
-struct FieldWriter {
-  YamlNode& node;
-
-  template <class T>
-  void operator()(std::string_view name, T& field, std::string_view comment = {}) {
-    YamlNode& item = node.items.emplace_back();
-    item.key = std::string(name);
-    item.comment = std::string(comment);
-    write_field(item, field);
-  }
-};
-
-template <HasFields T>
-void write_field(YamlNode& node, const T& object) {
-  node.kind = YamlNode::Kind::kMap;
-  T copy = object;  // visit_fields hands out references that could be written through
-  visit_fields(FieldWriter{node}, copy);
-}
-
-template <class T>
-inline constexpr bool takes_text =
+inline constexpr bool kTakesText =
     std::is_same_v<T, std::string> || std::is_same_v<T, std::optional<std::string>>;
 
 template <class T>
@@ -162,7 +106,7 @@ void set_field_at(T& object, std::string_view dotted_key, const std::string& tex
     if (!found) fail_unknown_key(place, name, 0, known);
   } else {
     if (!dotted_key.empty()) fail_unknown_key(place, dotted_key, 0, {});
-    if constexpr (takes_text<T>) {
+    if constexpr (kTakesText<T>) {
       object = text;
     } else {
       read_field(parse_override(text), object, place);

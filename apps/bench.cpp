@@ -1,0 +1,165 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstring>
+#include <memory>
+
+#include "apps/bench_references.h"
+#include "apps/command.h"
+#include "core/error.h"
+#include "extraction/extract_stripes.h"
+#include "extraction/workspace.h"
+#include "io/atomic_file.h"
+#include "io/images.h"
+#include "io/tables.h"
+
+namespace lightstripe {
+namespace {
+
+struct BenchArguments {
+  CommonOptions common;
+  std::vector<std::string> images;
+  int repeat = 100;
+  Overrides overrides;
+};
+
+struct Timing {
+  std::string method;
+  double median_ms = 0;
+  std::size_t points = 0;
+};
+
+/// Median of the repeats, after one run that warms caches and buffers.
+double median_ms(int repeat, const std::function<void()>& work) {
+  work();
+  std::vector<double> times;
+  for (int i = 0; i < repeat; ++i) {
+    const auto start = std::chrono::steady_clock::now();
+    work();
+    times.push_back(std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
+  }
+  std::nth_element(times.begin(), times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2), times.end());
+  return times[times.size() / 2];
+}
+
+std::vector<StripePoint> all_points(const std::vector<Stripe>& stripes) {
+  std::vector<StripePoint> points;
+  for (const auto& stripe : stripes) points.insert(points.end(), stripe.points.begin(), stripe.points.end());
+  return points;
+}
+
+/// The part of `points` that has a point of `others` within a pixel and a half.
+double agreement(const std::vector<StripePoint>& points, const std::vector<StripePoint>& others, ImageView8 image) {
+  constexpr int kReach = 1;
+  Image8 marked(image.width, image.height);
+  for (const auto& p : others) {
+    const int x = static_cast<int>(std::lround(p.x)), y = static_cast<int>(std::lround(p.y));
+    for (int dy = -kReach; dy <= kReach; ++dy)
+      for (int dx = -kReach; dx <= kReach; ++dx)
+        if (marked.view().contains(x + dx, y + dy)) marked(x + dx, y + dy) = 1;
+  }
+  std::size_t found = 0;
+  for (const auto& p : points) {
+    const int x = static_cast<int>(std::lround(p.x)), y = static_cast<int>(std::lround(p.y));
+    if (marked.view().contains(x, y) && marked(x, y) != 0) ++found;
+  }
+  return points.empty() ? 1.0 : static_cast<double>(found) / static_cast<double>(points.size());
+}
+
+struct ImageBench {
+  std::vector<Timing> timings;
+  std::vector<std::string> disagreements;
+};
+
+/// Every method has to find 90 % of what the reference finds and no more than 10 % besides.
+void time_methods(ImageView8 image, const ExtractionOptions& base, int repeat, ImageBench& bench) {
+  constexpr double kAgreement = 0.9;
+  ExtractionOptions options = base;
+  options.method = ExtractionMethod::kSteger;
+  const auto reference = all_points(extract_stripes(image, options).stripes);
+  for (const auto& [method, name] : enum_names(ExtractionMethod{})) {
+    options.method = method;
+    ExtractionWorkspace workspace;
+    ExtractionResult result;
+    extract_stripes(image, options, workspace, result);
+    const auto points = all_points(result.stripes);
+    if (agreement(reference, points, image) < kAgreement || agreement(points, reference, image) < kAgreement)
+      bench.disagreements.push_back(std::string(name));
+    const double time = median_ms(repeat, [&] { extract_stripes(image, options, workspace, result); });
+    bench.timings.push_back({std::string(name), time, points.size()});
+  }
+}
+
+ImageBench bench_image(ImageView8 image, const ExtractionOptions& base, int repeat) {
+  ImageBench bench;
+  ExtractionOptions options = base;
+  const ExtractionResult found = extract_stripes(image, options);
+  const double sigma = found.sigma > 0 ? found.sigma : 2.0;
+  // The width is fixed for the timing, as it is in a scan whose rig is known.
+  if (!options.sigma && !options.stripe_width) options.sigma = sigma;
+  time_methods(image, options, repeat, bench);
+
+  double weakest = 1e9;
+  for (const auto& p : all_points(found.stripes)) weakest = std::min(weakest, p.strength);
+  const double min_strength = weakest < 1e9 ? 0.5 * weakest : 1.0;
+  std::size_t points = 0;
+  const double steger = median_ms(repeat, [&] { points = steger_by_opencv(image, sigma, min_strength).size(); });
+  bench.timings.push_back({"opencv-steger", steger, points});
+  bench.timings.push_back({"opencv-calchist", median_ms(repeat, [&] { calchist_by_opencv(image); }), 0});
+  Image8 target(image.width, image.height);
+  bench.timings.push_back({"opencv-gaussianblur", median_ms(repeat, [&] { gaussianblur_by_opencv(image, sigma, target); }), 0});
+  const auto copy = [&] {
+    for (int y = 0; y < image.height; ++y) std::memcpy(target.row(y), image.row(y), static_cast<std::size_t>(image.width));
+  };
+  bench.timings.push_back({"memcpy", median_ms(repeat, copy), 0});
+  return bench;
+}
+
+double steger_time(const ImageBench& bench) {
+  const auto row = std::find_if(bench.timings.begin(), bench.timings.end(), [](const auto& t) { return t.method == "opencv-steger"; });
+  return row->median_ms;
+}
+
+int run_bench(BenchArguments arguments) {
+  arguments.common.threads = 1;
+  const ThreadLimit limit(arguments.common);
+  ExtractionOptions options;
+  apply_overrides(options, arguments.overrides);
+  std::string csv = "image,method,median_ms,points\n";
+  std::string disagreements;
+  for (const auto& file : arguments.images) {
+    const Image8 image = read_image(file);
+    const ImageBench bench = bench_image(image, options, arguments.repeat);
+    say(arguments.common, fmt::format("{} ({} x {}, one thread, median of {})", file, image.width, image.height, arguments.repeat));
+    for (const auto& [method, median, points] : bench.timings) {
+      csv += fmt::format("{},{},{:.6f},{}\n", csv_cell(file), method, median, points);
+      say(arguments.common, fmt::format("  {:<20} {:>10.4f} ms {:>8} points {:>8.1f} x opencv-steger's speed", method, median, points,
+                                        steger_time(bench) / median));
+    }
+    for (const auto& method : bench.disagreements) disagreements += fmt::format(" {} in {};", method, file);
+  }
+  const std::string output = arguments.common.output.empty() ? "bench.csv" : arguments.common.output;
+  write_file(output, csv);
+  say(arguments.common, "-> " + output);
+  if (!disagreements.empty())
+    return not_usable("these methods do not find the lines that steger finds, their times mean little:" + disagreements);
+  return kExitDone;
+}
+
+}  // namespace
+
+void add_bench_command(CLI::App& app, Command& run) {
+  auto* command = app.add_subcommand("bench", "every extraction method on these images, timed on one thread");
+  auto arguments = std::make_shared<BenchArguments>();
+  command->add_option("images", arguments->images, "image files")->required();
+  add_common_options(*command, arguments->common, "table of times (default: bench.csv)");
+  command->add_option("--repeat", arguments->repeat, "runs of which the median is taken [100]")->check(CLI::Range(1, 1000000));
+  add_field_options<ExtractionOptions>(*command, "", arguments->overrides);
+  command->callback([arguments, &run] { run = [arguments] { return run_bench(*arguments); }; });
+}
+
+}  // namespace lightstripe

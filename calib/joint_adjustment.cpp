@@ -1,0 +1,168 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+#include "calib/joint_adjustment.h"
+
+#include <ceres/solver.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "calib/reduced_covariance.h"
+#include "calib/stripe_frame.h"
+
+namespace lightstripe {
+namespace {
+
+constexpr double kMinSigma_px = 0.005;    // perfect data must not divide by zero
+constexpr std::size_t kMinForSigma = 40;  // residuals of a group from which its sigma is estimated
+
+enum class Spread { kMedian, kRms };
+
+/// Corners of a sensor are one group, its stripe points another.
+std::size_t group_of(const Measurements& measurements, const Measurement& measurement) {
+  const auto sensor = static_cast<std::size_t>(measurements.views[measurement.view].sensor);
+  return 2 * sensor + (measurement.is_corner() ? 0 : 1);
+}
+
+double stripe_sigma_px(const StripePoint& point, const CalibrationOptions& options) {
+  return std::hypot(point.sigma_px, options.stripe_sigma_floor_px);
+}
+
+std::vector<Measurement> list_measurements(const Measurements& measurements,
+                                           const CalibrationOptions& options) {
+  std::vector<Measurement> list;
+  for (std::size_t v = 0; v < measurements.views.size(); ++v) {
+    const auto& view = measurements.views[v];
+    for (std::size_t i = 0; i < view.corners.size(); ++i) list.push_back({v, -1, i, options.corner_sigma_px});
+    for (std::size_t p = 0; p < view.stripes.size(); ++p)
+      for (std::size_t i = 0; i < view.stripes[p].size(); ++i)
+        list.push_back({v, static_cast<int>(p), i, stripe_sigma_px(view.stripes[p][i], options)});
+  }
+  return list;
+}
+
+/// Stripe points that no ray explains in this state are of no use in the next round.
+void drop_unseen(const Measurements& measurements, const RigState& state, std::vector<Measurement>& list) {
+  for (auto& measurement : list) {
+    if (measurement.is_corner() || !measurement.used) continue;
+    const auto& view = measurements.views[measurement.view];
+    const auto& sensor = state.sensors[static_cast<std::size_t>(view.sensor)];
+    const auto p = static_cast<std::size_t>(measurement.plane);
+    const auto& point = view.stripes[p][measurement.index];
+    const Rigid3 cam_from_board =
+        sensor.cam_from_first * state.first_from_board[static_cast<std::size_t>(view.pose)];
+    measurement.used =
+        stripe_frame(sensor.camera, board_plane(cam_from_board), sensor.laser_planes[p], {point.x, point.y})
+            .has_value();
+  }
+}
+
+ceres::Solver::Summary solve(JointProblem& joint, int max_iterations, double tolerance) {
+  ceres::Solver::Options options;
+  options.linear_solver_type = ceres::DENSE_SCHUR;
+  options.num_threads = 1;  // more would add in the order of arrival: other bits in every run
+  options.max_num_iterations = max_iterations;
+  options.function_tolerance = tolerance;
+  options.parameter_tolerance = tolerance;
+  options.gradient_tolerance = 1e-14;
+  options.initial_trust_region_radius =
+      1e10;  // the start is good: full Gauss-Newton steps, damped only if they fail
+  options.logging_type = ceres::SILENT;
+  auto* ordering = new ceres::ParameterBlockOrdering;
+  for (double* block : joint.blocks()) ordering->AddElementToGroup(block, 1);
+  for (double* block : joint.pose_blocks()) ordering->AddElementToGroup(block, 0);
+  options.linear_solver_ordering.reset(ordering);
+  ceres::Solver::Summary summary;
+  ceres::Solve(options, &joint.problem(), &summary);
+  return summary;
+}
+
+void read_residuals(JointProblem& joint, std::vector<Measurement>& list) {
+  ceres::Problem::EvaluateOptions options;
+  options.apply_loss_function = false;
+  std::vector<double> residuals;
+  joint.problem().Evaluate(options, nullptr, &residuals, nullptr, nullptr);
+  auto next = residuals.cbegin();
+  for (auto& measurement : list) {
+    if (!measurement.used) continue;
+    for (int i = 0; i < measurement.dimension(); ++i)
+      measurement.residual_px[i] = *next++ * measurement.sigma_px;
+  }
+}
+
+double spread_of(std::vector<double> normalised, Spread spread) {
+  if (spread == Spread::kRms) {
+    double sum = 0;
+    for (const double r : normalised) sum += r * r;
+    return std::sqrt(sum / static_cast<double>(normalised.size()));
+  }
+  const auto middle = normalised.begin() + static_cast<std::ptrdiff_t>(normalised.size() / 2);
+  std::nth_element(normalised.begin(), middle, normalised.end());
+  return 1.4826 * *middle;
+}
+
+/// Scales the sigmas of each group so that its normalised residuals have unit spread (variance components);
+/// `redundancy` = 1 - unknowns / residuals.
+void estimate_sigmas(const Measurements& measurements, Spread spread, double redundancy,
+                     std::vector<Measurement>& list) {
+  std::vector<std::vector<double>> groups(2 * measurements.sensor_names.size());
+  for (const auto& measurement : list) {
+    if (!measurement.used) continue;
+    auto& group = groups[group_of(measurements, measurement)];
+    for (int i = 0; i < measurement.dimension(); ++i)
+      group.push_back(std::abs(measurement.residual_px[i]) / measurement.sigma_px);
+  }
+  std::vector<double> scales;
+  for (auto& group : groups)
+    scales.push_back(
+        group.size() < kMinForSigma ? 1.0 : spread_of(std::move(group), spread) / std::sqrt(redundancy));
+  for (auto& measurement : list)
+    measurement.sigma_px =
+        std::max(kMinSigma_px, measurement.sigma_px * scales[group_of(measurements, measurement)]);
+}
+
+void remove_outliers(double limit, std::vector<Measurement>& list) {
+  for (auto& measurement : list) measurement.used = measurement.used && measurement.normalised() <= limit;
+}
+
+double redundancy_of(const ceres::Solver::Summary& summary) {
+  return std::max(0.1, 1.0 - static_cast<double>(summary.num_effective_parameters_reduced) /
+                                 summary.num_residuals_reduced);
+}
+
+}  // namespace
+
+JointAdjustment adjust_jointly(const Measurements& measurements, const RigState& start,
+                               const CalibrationOptions& options) {
+  enum { kGivenSigmas, kRobustSigmas, kWithoutOutliers, kFinal, kRounds };
+  JointAdjustment result;
+  result.state = start;
+  result.measurements = list_measurements(measurements, options);
+  for (int round = 0; round < kRounds; ++round) {
+    drop_unseen(measurements, result.state, result.measurements);
+    const double robust_scale = round <= kRobustSigmas ? options.robust_scale : 0;
+    JointProblem joint(measurements, result.state, result.measurements,
+                       {options.distortion_terms, robust_scale});
+    const auto summary = solve(joint, options.max_iterations, round < kFinal ? 1e-8 : 1e-14);
+    result.iterations += static_cast<int>(summary.iterations.size());
+    result.converged = summary.termination_type == ceres::CONVERGENCE;
+    if (!summary.IsSolutionUsable()) return result;
+    result.state = joint.state();
+    read_residuals(joint, result.measurements);
+    const double redundancy = redundancy_of(summary);
+    if (round == kGivenSigmas || round == kRobustSigmas)
+      estimate_sigmas(measurements, Spread::kMedian, redundancy, result.measurements);
+    if (round == kRobustSigmas) remove_outliers(options.outlier_sigma, result.measurements);
+    if (round == kWithoutOutliers)
+      estimate_sigmas(measurements, Spread::kRms, redundancy, result.measurements);
+    if (round != kFinal) continue;
+    result.sigma0 = std::sqrt(2 * summary.final_cost / summary.num_residuals_reduced / redundancy);
+    result.globals = joint.globals();
+    const auto reduced = reduced_covariance(joint);
+    result.covariance = result.sigma0 * result.sigma0 * reduced.covariance;
+    result.condition = reduced.condition;
+  }
+  return result;
+}
+
+}  // namespace lightstripe

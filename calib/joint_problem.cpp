@@ -1,0 +1,232 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+#include "calib/joint_problem.h"
+
+#include <ceres/loss_function.h>
+#include <ceres/manifold.h>
+#include <ceres/product_manifold.h>
+#include <ceres/sphere_manifold.h>
+
+#include <algorithm>
+
+#include "calib/residuals.h"
+#include "calib/stripe_frame.h"
+#include "core/error.h"
+
+namespace lightstripe {
+namespace {
+
+using PoseManifold = ceres::ProductManifold<ceres::EigenQuaternionManifold, ceres::EuclideanManifold<3>>;
+using PlaneManifold = ceres::ProductManifold<ceres::SphereManifold<3>, ceres::EuclideanManifold<1>>;
+
+std::array<double, kIntrinsics> intrinsics_block_of(const Camera& camera) {
+  std::array<double, kIntrinsics> block{camera.fx, camera.fy, camera.cx, camera.cy};
+  std::copy(camera.distortion.begin(), camera.distortion.end(), block.begin() + 4);
+  return block;
+}
+
+Camera camera_of(const Camera& like, const std::array<double, kIntrinsics>& block) {
+  Camera camera{like.width, like.height, block[0], block[1], block[2], block[3], {}};
+  std::copy(block.begin() + 4, block.end(), camera.distortion.begin());
+  return camera;
+}
+
+std::array<double, 7> pose_block_of(const Rigid3& pose) {
+  const auto& q = pose.rotation;
+  const auto& t = pose.translation;
+  return {q.x(), q.y(), q.z(), q.w(), t.x(), t.y(), t.z()};
+}
+
+Rigid3 pose_of(const std::array<double, 7>& block) {
+  return {Eigen::Quaterniond(block[3], block[0], block[1], block[2]).normalized(),
+          {block[4], block[5], block[6]}};
+}
+
+std::array<double, 4> plane_block_of(const Plane& plane) {
+  return {plane.normal.x(), plane.normal.y(), plane.normal.z(), plane.offset};
+}
+
+Plane plane_of(const std::array<double, 4>& block) {
+  return {Eigen::Vector3d(block[0], block[1], block[2]).normalized(), block[3]};
+}
+
+std::array<double, 3> block_of(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+
+/// The distortion terms beyond the model stay as they are.
+ceres::Manifold* intrinsics_manifold(int distortion_terms) {
+  std::vector<int> fixed;
+  for (int i = 4 + distortion_terms; i < kIntrinsics; ++i) fixed.push_back(i);
+  return new ceres::SubsetManifold(kIntrinsics, fixed);
+}
+
+/// A point of the axis is free across it only: the coordinate along the axis' largest component stays.
+ceres::Manifold* axis_point_manifold(const std::array<double, 3>& direction) {
+  int largest = 0;
+  Eigen::Map<const Eigen::Vector3d>(direction.data()).cwiseAbs().maxCoeff(&largest);
+  return new ceres::SubsetManifold(3, {largest});
+}
+
+}  // namespace
+
+JointProblem::JointProblem(const Measurements& measurements, const RigState& state,
+                           const std::vector<Measurement>& list, const ProblemOptions& options)
+    : measurements_(&measurements), start_(state), options_(options) {
+  for (const auto& sensor : state.sensors) {
+    intrinsics_.push_back(intrinsics_block_of(sensor.camera));
+    cam_from_first_.push_back(pose_block_of(sensor.cam_from_first));
+    planes_.emplace_back();
+    for (const auto& plane : sensor.laser_planes) planes_.back().push_back(plane_block_of(plane));
+  }
+  for (const auto& pose : state.first_from_board) first_from_board_.push_back(pose_block_of(pose));
+  if (state.motion) {
+    motion_board_ = pose_block_of(state.motion->first_from_board);
+    direction_ = block_of(state.motion->direction);
+    axis_point_ = block_of(state.motion->axis_point);
+  }
+  problem_ = std::make_unique<ceres::Problem>();
+  add_blocks(list);
+  for (const auto& measurement : list) {
+    if (!measurement.used) continue;
+    const auto& view = measurements.views[measurement.view];
+    measurement.is_corner() ? add_corner(view, measurement) : add_stripe_point(view, measurement);
+  }
+}
+
+void JointProblem::add_global(GlobalBlock block, double* data, ceres::Manifold* manifold) {
+  problem_->AddParameterBlock(data, manifold->AmbientSize(), manifold);
+  block.column = num_globals();
+  block.size = manifold->TangentSize();
+  globals_.push_back(block);
+  global_blocks_.push_back(data);
+}
+
+void JointProblem::add_blocks(const std::vector<Measurement>& list) {
+  using Kind = GlobalBlock::Kind;
+  for (std::size_t s = 0; s < intrinsics_.size(); ++s) {
+    const int sensor = static_cast<int>(s);
+    add_global({Kind::kIntrinsics, sensor}, intrinsics_[s].data(),
+               intrinsics_manifold(options_.distortion_terms));
+    if (s == 0) {
+      problem_->AddParameterBlock(cam_from_first_[s].data(), 7);
+      problem_->SetParameterBlockConstant(cam_from_first_[s].data());
+    } else {
+      add_global({Kind::kCamFromFirst, sensor}, cam_from_first_[s].data(), new PoseManifold);
+    }
+    for (std::size_t p = 0; p < planes_[s].size(); ++p)
+      add_global({Kind::kLaserPlane, sensor, static_cast<int>(p)}, planes_[s][p].data(), new PlaneManifold);
+  }
+  if (start_.motion) add_global({Kind::kDirection}, direction_.data(), new ceres::SphereManifold<3>);
+  if (measurements_->motion == MotionType::kRotary) {
+    add_global({Kind::kAxisPoint}, axis_point_.data(), axis_point_manifold(direction_));
+  } else if (start_.motion) {
+    problem_->AddParameterBlock(axis_point_.data(), 3);
+    problem_->SetParameterBlockConstant(axis_point_.data());
+  }
+  for (const auto& measurement : list) {
+    double* block = pose_block(measurements_->views[measurement.view]);
+    if (!measurement.used || problem_->HasParameterBlock(block)) continue;
+    problem_->AddParameterBlock(block, 7, new PoseManifold);
+    pose_blocks_.push_back(block);
+  }
+}
+
+double* JointProblem::pose_block(const ViewMeasurement& view) {
+  return view.pose < 0 ? motion_board_.data() : first_from_board_[static_cast<std::size_t>(view.pose)].data();
+}
+
+ceres::LossFunction* JointProblem::loss() const {
+  return options_.robust_scale > 0 ? new ceres::HuberLoss(options_.robust_scale) : nullptr;
+}
+
+void JointProblem::add_corner(const ViewMeasurement& view, const Measurement& measurement) {
+  const auto sensor = static_cast<std::size_t>(view.sensor);
+  const Eigen::Vector2d p = measurements_->target.corner(static_cast<int>(measurement.index));
+  const Eigen::Vector3d p_board(p.x(), p.y(), 0);
+  const Eigen::Vector2d& pixel = view.corners[measurement.index];
+  double* intrinsics = intrinsics_[sensor].data();
+  double* cam_from_first = cam_from_first_[sensor].data();
+  if (view.pose >= 0) {
+    problem_->AddResidualBlock(new CornerResidual(p_board, pixel, measurement.sigma_px), loss(), intrinsics,
+                               cam_from_first, pose_block(view));
+    return;
+  }
+  const double signed_travel = measurements_->motion_sign() * view.travel;
+  problem_->AddResidualBlock(
+      new TravelCornerResidual(p_board, pixel, measurement.sigma_px, measurements_->motion, signed_travel),
+      loss(), intrinsics, cam_from_first, pose_block(view), direction_.data(), axis_point_.data());
+}
+
+void JointProblem::add_stripe_point(const ViewMeasurement& view, const Measurement& measurement) {
+  const auto s = static_cast<std::size_t>(view.sensor);
+  const auto p = static_cast<std::size_t>(measurement.plane);
+  const auto& sensor = start_.sensors[s];
+  const Eigen::Vector2d pixel(view.stripes[p][measurement.index].x, view.stripes[p][measurement.index].y);
+  const Rigid3 cam_from_board =
+      sensor.cam_from_first * start_.first_from_board[static_cast<std::size_t>(view.pose)];
+  const auto frame = stripe_frame(sensor.camera, board_plane(cam_from_board), sensor.laser_planes[p], pixel);
+  LIGHTSTRIPE_CHECK(frame.has_value(), "a stripe point that no ray explains must not be used");
+  problem_->AddResidualBlock(new StripeResidual(pixel, frame->normal, frame->across, measurement.sigma_px),
+                             loss(), intrinsics_[s].data(), cam_from_first_[s].data(), pose_block(view),
+                             planes_[s][p].data());
+}
+
+RigState JointProblem::state() const {
+  RigState result = start_;
+  for (std::size_t s = 0; s < result.sensors.size(); ++s) {
+    result.sensors[s].camera = camera_of(start_.sensors[s].camera, intrinsics_[s]);
+    result.sensors[s].cam_from_first = pose_of(cam_from_first_[s]);
+    for (std::size_t p = 0; p < planes_[s].size(); ++p)
+      result.sensors[s].laser_planes[p] = plane_of(planes_[s][p]);
+  }
+  for (std::size_t i = 0; i < first_from_board_.size(); ++i)
+    result.first_from_board[i] = pose_of(first_from_board_[i]);
+  if (result.motion) {
+    result.motion->first_from_board = pose_of(motion_board_);
+    result.motion->direction = Eigen::Map<const Eigen::Vector3d>(direction_.data()).normalized();
+    result.motion->axis_point = Eigen::Map<const Eigen::Vector3d>(axis_point_.data());
+  }
+  return result;
+}
+
+std::vector<double*> JointProblem::blocks() const {
+  std::vector<double*> all = global_blocks_;
+  all.insert(all.end(), pose_blocks_.begin(), pose_blocks_.end());
+  return all;
+}
+
+RigState moved_state(const RigState& state, const std::vector<GlobalBlock>& globals,
+                     const Eigen::VectorXd& delta, int distortion_terms) {
+  using Kind = GlobalBlock::Kind;
+  RigState result = state;
+  for (const auto& block : globals) {
+    const double* step = delta.data() + block.column;
+    if (Eigen::Map<const Eigen::VectorXd>(step, block.size).isZero(0)) continue;
+    auto& sensor = result.sensors[static_cast<std::size_t>(block.sensor)];
+    if (block.kind == Kind::kIntrinsics) {
+      auto from = intrinsics_block_of(sensor.camera), to = from;
+      std::unique_ptr<ceres::Manifold>(intrinsics_manifold(distortion_terms))
+          ->Plus(from.data(), step, to.data());
+      sensor.camera = camera_of(sensor.camera, to);
+    } else if (block.kind == Kind::kCamFromFirst) {
+      auto from = pose_block_of(sensor.cam_from_first), to = from;
+      PoseManifold().Plus(from.data(), step, to.data());
+      sensor.cam_from_first = pose_of(to);
+    } else if (block.kind == Kind::kLaserPlane) {
+      auto& plane = sensor.laser_planes[static_cast<std::size_t>(block.plane)];
+      auto from = plane_block_of(plane), to = from;
+      PlaneManifold().Plus(from.data(), step, to.data());
+      plane = plane_of(to);
+    } else if (block.kind == Kind::kDirection) {
+      const auto from = block_of(state.motion->direction);
+      ceres::SphereManifold<3>().Plus(from.data(), step, result.motion->direction.data());
+    } else {
+      auto from = block_of(state.motion->axis_point), to = from;
+      std::unique_ptr<ceres::Manifold>(axis_point_manifold(block_of(state.motion->direction)))
+          ->Plus(from.data(), step, to.data());
+      result.motion->axis_point = {to[0], to[1], to[2]};
+    }
+  }
+  return result;
+}
+
+}  // namespace lightstripe

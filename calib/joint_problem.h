@@ -1,0 +1,88 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+// The joint adjustment as a Ceres problem: blocks of unknowns, one residual block a measurement.
+#pragma once
+
+#include <ceres/problem.h>
+
+#include <Eigen/Core>
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "calib/rig_state.h"
+
+namespace lightstripe {
+
+/// One corner or stripe point in the adjustment.
+struct Measurement {
+  std::size_t view = 0;
+  int plane = -1;         ///< -1: a corner
+  std::size_t index = 0;  ///< of the corner, or of the stripe's point
+  double sigma_px = 1;
+  bool used = true;
+  Eigen::Vector2d residual_px =
+      Eigen::Vector2d::Zero();  ///< at the end of the solve; a stripe point uses x only
+
+  bool is_corner() const { return plane < 0; }
+  int dimension() const { return is_corner() ? 2 : 1; }
+  double normalised() const { return residual_px.norm() / sigma_px; }
+};
+
+/// Unknowns that all views share; a view's pose is not one of them.
+struct GlobalBlock {
+  enum class Kind { kIntrinsics, kCamFromFirst, kLaserPlane, kDirection, kAxisPoint };
+  Kind kind = Kind::kIntrinsics;
+  int sensor = 0, plane = 0;
+  int column = 0, size = 0;  ///< place in the covariance: first column and number of columns (tangent space)
+};
+
+struct ProblemOptions {
+  int distortion_terms = 5;  ///< 4, 5, 8 or 12 of OpenCV's order
+  double robust_scale = 0;   ///< Huber's, in sigma; 0: least squares
+};
+
+/// Owns the unknowns while Ceres works on them. Measurements that are not `used` are left out; the constants
+/// of the stripe residuals (see StripeResidual) are those of the state given.
+class JointProblem {
+ public:
+  JointProblem(const Measurements& measurements, const RigState& state, const std::vector<Measurement>& list,
+               const ProblemOptions& options);
+
+  ceres::Problem& problem() { return *problem_; }
+  RigState state() const;
+  /// Shared unknowns in the order of the covariance.
+  const std::vector<GlobalBlock>& globals() const { return globals_; }
+  int num_globals() const { return globals_.empty() ? 0 : globals_.back().column + globals_.back().size; }
+  /// The parameter blocks, shared ones first in the order of globals(), then the poses that a view uses.
+  std::vector<double*> blocks() const;
+  /// The poses' blocks: eliminated first.
+  const std::vector<double*>& pose_blocks() const { return pose_blocks_; }
+
+ private:
+  void add_corner(const ViewMeasurement& view, const Measurement& measurement);
+  void add_stripe_point(const ViewMeasurement& view, const Measurement& measurement);
+  void add_blocks(const std::vector<Measurement>& list);
+  void add_global(GlobalBlock block, double* data, ceres::Manifold* manifold);
+  double* pose_block(const ViewMeasurement& view);
+  ceres::LossFunction* loss() const;
+
+  const Measurements* measurements_;
+  RigState start_;
+  ProblemOptions options_;
+  std::vector<std::array<double, 4 + kDistortionTerms>> intrinsics_;
+  std::vector<std::array<double, 7>> cam_from_first_, first_from_board_;
+  std::vector<std::vector<std::array<double, 4>>> planes_;
+  std::array<double, 7> motion_board_{};
+  std::array<double, 3> direction_{}, axis_point_{};
+  std::vector<GlobalBlock> globals_;
+  std::vector<double*> global_blocks_, pose_blocks_;
+  std::unique_ptr<ceres::Problem> problem_;
+};
+
+/// The state moved by `delta` in the tangent space of its shared unknowns: what column j of the covariance
+/// means.
+RigState moved_state(const RigState& state, const std::vector<GlobalBlock>& globals,
+                     const Eigen::VectorXd& delta, int distortion_terms);
+
+}  // namespace lightstripe

@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+// From the adjustment's frame (the first camera) to the rig frame of the contract.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "calib/rig_state.h"
+#include "core/rig.h"
+
+namespace lightstripe {
+
+/// x = direction of travel; without a linear motion the first laser plane's normal, which looks away from the
+/// camera. z = `up` (first camera frame) made orthogonal to x. Throws NotUsable where up is parallel to x
+/// within 3 degrees.
+Rigid3 rig_from_first(const RigState& state, MotionType motion, const Eigen::Vector3d& up);
+
+/// The calibrated rig without its quality. Rotary motion: the axis is turned so that it grows with y; where
+/// that turns the sense of rotation, `rig_moves` changes sides, which is the same motion.
+Rig rig_of(const Measurements& measurements, const RigState& state, const Eigen::Vector3d& up);
+
+}  // namespace lightstripe

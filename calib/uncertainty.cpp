@@ -1,0 +1,173 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+#include "calib/uncertainty.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <Eigen/QR>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "calib/rig_frame.h"
+
+namespace lightstripe {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+/// d f(state) / d(shared unknowns) by central differences of a twentieth of a sigma.
+template <class F>
+MatrixXd derivative(const JointAdjustment& adjustment, int terms, const F& f) {
+  constexpr double kMinStep = 1e-6;  // perfect data have a sigma of nothing
+  const Eigen::Index n = adjustment.covariance.rows();
+  MatrixXd J;
+  for (Eigen::Index j = 0; j < n; ++j) {
+    const double step = std::max(kMinStep, 0.05 * std::sqrt(adjustment.covariance(j, j)));
+    const VectorXd delta = step * VectorXd::Unit(n, j);
+    const VectorXd column = (f(moved_state(adjustment.state, adjustment.globals, delta, terms)) -
+                             f(moved_state(adjustment.state, adjustment.globals, -delta, terms))) /
+                            (2 * step);
+    if (J.size() == 0) J = MatrixXd::Zero(column.size(), n);
+    J.col(j) = column;
+  }
+  return J;
+}
+
+/// Root of the summed variances of f's components.
+template <class F>
+double total_sigma(const JointAdjustment& adjustment, int terms, const F& f) {
+  const MatrixXd J = derivative(adjustment, terms, f);
+  return std::sqrt((J * adjustment.covariance * J.transpose()).trace());
+}
+
+void add_intrinsics(const JointAdjustment& adjustment, const GlobalBlock& block, const std::string& name,
+                    std::map<std::string, double>& sigmas) {
+  static constexpr std::array<const char*, 16> kNames{"fx", "fy", "cx", "cy", "k1", "k2", "p1", "p2",
+                                                      "k3", "k4", "k5", "k6", "s1", "s2", "s3", "s4"};
+  for (int i = 0; i < block.size; ++i)
+    sigmas[fmt::format("{}.camera.{}", name, kNames[static_cast<std::size_t>(i)])] =
+        std::sqrt(adjustment.covariance(block.column + i, block.column + i));
+}
+
+void add_plane(const JointAdjustment& adjustment, const GlobalBlock& block, int terms,
+               const std::string& sensor, std::map<std::string, double>& sigmas) {
+  const auto s = static_cast<std::size_t>(block.sensor), p = static_cast<std::size_t>(block.plane);
+  const auto name = fmt::format("{}.laser_planes.{}", sensor, block.plane);
+  const auto normal = [&](const RigState& state) -> VectorXd {
+    return state.sensors[s].laser_planes[p].normal;
+  };
+  sigmas[name + ".normal_deg"] = total_sigma(adjustment, terms, normal) / kDegree;
+  const int offset = block.column + block.size - 1;
+  sigmas[name + ".offset_mm"] = std::sqrt(adjustment.covariance(offset, offset));
+}
+
+/// The sensor's pose in the first sensor's frame.
+void add_pose(const JointAdjustment& adjustment, const GlobalBlock& block, int terms,
+              const std::string& sensor, std::map<std::string, double>& sigmas) {
+  const auto s = static_cast<std::size_t>(block.sensor);
+  const Eigen::Quaterniond mean = adjustment.state.sensors[s].cam_from_first.rotation;
+  const auto rotation = [&](const RigState& state) -> VectorXd {
+    return 2 * (state.sensors[s].cam_from_first.rotation * mean.conjugate()).vec();  // small angles, radians
+  };
+  const auto position = [&](const RigState& state) -> VectorXd {
+    return state.sensors[s].cam_from_first.inverse().translation;
+  };
+  sigmas[sensor + ".pose.rotation_deg"] = total_sigma(adjustment, terms, rotation) / kDegree;
+  sigmas[sensor + ".pose.translation_mm"] = total_sigma(adjustment, terms, position);
+}
+
+}  // namespace
+
+std::map<std::string, double> parameter_sigmas(const Measurements& measurements,
+                                               const JointAdjustment& adjustment,
+                                               const CalibrationOptions& options) {
+  using Kind = GlobalBlock::Kind;
+  const int terms = options.distortion_terms;
+  std::map<std::string, double> sigmas;
+  for (const auto& block : adjustment.globals) {
+    const auto& sensor = measurements.sensor_names[static_cast<std::size_t>(block.sensor)];
+    if (block.kind == Kind::kIntrinsics) add_intrinsics(adjustment, block, sensor, sigmas);
+    if (block.kind == Kind::kLaserPlane) add_plane(adjustment, block, terms, sensor, sigmas);
+    if (block.kind == Kind::kCamFromFirst) add_pose(adjustment, block, terms, sensor, sigmas);
+    if (block.kind == Kind::kDirection)
+      sigmas["motion.direction_deg"] =
+          total_sigma(adjustment, terms, [](const RigState& s) -> VectorXd { return s.motion->direction; }) /
+          kDegree;
+    if (block.kind == Kind::kAxisPoint)
+      sigmas["motion.axis_point_mm"] =
+          total_sigma(adjustment, terms, [](const RigState& s) -> VectorXd { return s.motion->axis_point; });
+  }
+  return sigmas;
+}
+
+std::vector<SectionSample> section_samples(const Measurements& measurements,
+                                           const std::vector<Measurement>& list) {
+  constexpr std::size_t kMaxSamples = 150;
+  std::map<std::pair<int, int>, std::vector<SectionSample>> by_plane;
+  for (const auto& measurement : list) {
+    if (measurement.is_corner() || !measurement.used) continue;
+    const auto& view = measurements.views[measurement.view];
+    const auto& point = view.stripes[static_cast<std::size_t>(measurement.plane)][measurement.index];
+    by_plane[{view.sensor, measurement.plane}].push_back(
+        {view.sensor, measurement.plane, {point.x, point.y}});
+  }
+  std::vector<SectionSample> samples;
+  for (const auto& [plane, all] : by_plane) {
+    const std::size_t step = (all.size() + kMaxSamples - 1) / kMaxSamples;
+    for (std::size_t i = 0; i < all.size(); i += step) samples.push_back(all[i]);
+  }
+  return samples;
+}
+
+VectorXd section_of(const RigState& state, MotionType motion, const Eigen::Vector3d& up,
+                    const std::vector<SectionSample>& samples) {
+  const Rigid3 rig = rig_from_first(state, motion, up);
+  VectorXd section = VectorXd::Zero(2 * static_cast<Eigen::Index>(samples.size()));
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const auto& sensor = state.sensors[static_cast<std::size_t>(samples[i].sensor)];
+    const auto ray = unproject(sensor.camera, samples[i].pixel);
+    const auto& plane = sensor.laser_planes[static_cast<std::size_t>(samples[i].plane)];
+    const auto p = ray ? intersect(plane, Eigen::Vector3d::Zero(), *ray) : std::nullopt;
+    if (p)
+      section.segment<2>(2 * static_cast<Eigen::Index>(i)) =
+          (rig * (sensor.cam_from_first.inverse() * *p)).tail<2>();
+  }
+  return section;
+}
+
+MatrixXd without_rigid_motion(const VectorXd& section) {
+  const Eigen::Index n = section.size() / 2;
+  const Eigen::Map<const Eigen::Matrix2Xd> points(section.data(), 2, n);
+  const Eigen::Vector2d mean = points.rowwise().mean();
+  MatrixXd rigid(2 * n, 3);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const Eigen::Vector2d p = points.col(i) - mean;
+    rigid.middleRows<2>(2 * i) << 1, 0, -p.y(), 0, 1, p.x();
+  }
+  const MatrixXd basis = rigid.householderQr().householderQ() * MatrixXd::Identity(2 * n, 3);
+  return MatrixXd::Identity(2 * n, 2 * n) - basis * basis.transpose();
+}
+
+SectionUncertainty section_uncertainty(const Measurements& measurements, const JointAdjustment& adjustment,
+                                       const Eigen::Vector3d& up, const CalibrationOptions& options) {
+  const auto samples = section_samples(measurements, adjustment.measurements);
+  if (samples.size() < 3) return {};
+  const auto section = [&](const RigState& state) {
+    return section_of(state, measurements.motion, up, samples);
+  };
+  const MatrixXd J = derivative(adjustment, options.distortion_terms, section);
+  const MatrixXd shape = without_rigid_motion(section(adjustment.state)) * J;
+  const auto rms = [&](const MatrixXd& of) {
+    return std::sqrt((of * adjustment.covariance).cwiseProduct(of).sum() /
+                     static_cast<double>(samples.size()));
+  };
+  return {rms(J), rms(shape)};
+}
+
+}  // namespace lightstripe

@@ -1,0 +1,180 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+#include "calib/verdict.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace lightstripe {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+/// Sums of squares of corners and stripe points.
+struct Sums {
+  double corners_px2 = 0, stripe_px2 = 0;
+  int corners = 0, stripe_points = 0, left_out = 0;
+
+  void add(const Measurement& measurement) {
+    if (!measurement.used) {
+      ++left_out;
+      return;
+    }
+    const double squared = measurement.residual_px.squaredNorm();
+    (measurement.is_corner() ? corners_px2 : stripe_px2) += squared;
+    ++(measurement.is_corner() ? corners : stripe_points);
+  }
+  double board_rms() const { return corners ? std::sqrt(corners_px2 / corners) : 0; }
+  double stripe_rms() const { return stripe_points ? std::sqrt(stripe_px2 / stripe_points) : 0; }
+};
+
+std::vector<Sums> sums_by_view(const Measurements& measurements, const std::vector<Measurement>& list) {
+  std::vector<Sums> sums(measurements.views.size());
+  for (const auto& measurement : list) sums[measurement.view].add(measurement);
+  return sums;
+}
+
+/// The largest angle between a board of the sensor and the mean of its boards, degrees.
+double tilt_spread_deg(const Measurements& measurements, const RigState& state, int sensor) {
+  std::vector<Vector3d> normals;
+  Vector3d mean = Vector3d::Zero();
+  for (const auto& view : measurements.views) {
+    if (view.sensor != sensor || view.pose < 0) continue;
+    normals.emplace_back(state.first_from_board[static_cast<std::size_t>(view.pose)].rotation *
+                         Vector3d::UnitZ());
+    mean += normals.back();
+  }
+  double spread = 0;
+  for (const auto& normal : normals)
+    spread = std::max(spread, std::acos(std::clamp(normal.dot(mean.normalized()), -1.0, 1.0)));
+  return spread / kDegree;
+}
+
+/// Diagonal of the part of the image where the sensor's stripes lay, as a share of the image's diagonal.
+double stripe_coverage(const Measurements& measurements, const std::vector<Measurement>& list, int sensor) {
+  Eigen::Vector2d low(1e9, 1e9), high(-1e9, -1e9);
+  for (const auto& measurement : list) {
+    const auto& view = measurements.views[measurement.view];
+    if (measurement.is_corner() || !measurement.used || view.sensor != sensor) continue;
+    const auto& point = view.stripes[static_cast<std::size_t>(measurement.plane)][measurement.index];
+    low = low.cwiseMin(Eigen::Vector2d(point.x, point.y));
+    high = high.cwiseMax(Eigen::Vector2d(point.x, point.y));
+  }
+  const auto& size = measurements.image_sizes[static_cast<std::size_t>(sensor)];
+  return (high - low).norm() / std::hypot(size[0], size[1]);
+}
+
+}  // namespace
+
+std::vector<ViewResidual> view_residuals(const Measurements& measurements,
+                                         const std::vector<Measurement>& list) {
+  const auto sums = sums_by_view(measurements, list);
+  std::vector<ViewResidual> result;
+  for (std::size_t i = 0; i < sums.size(); ++i) {
+    const auto& view = measurements.views[i];
+    result.push_back({measurements.sensor_names[static_cast<std::size_t>(view.sensor)], view.image,
+                      sums[i].board_rms(), sums[i].stripe_rms(), sums[i].corners, sums[i].stripe_points,
+                      sums[i].left_out});
+  }
+  return result;
+}
+
+std::vector<SensorQuality> sensor_quality(const Measurements& measurements,
+                                          const std::vector<Measurement>& list) {
+  std::vector<Sums> sums(measurements.sensor_names.size());
+  for (const auto& measurement : list)
+    sums[static_cast<std::size_t>(measurements.views[measurement.view].sensor)].add(measurement);
+  std::vector<SensorQuality> result;
+  for (std::size_t s = 0; s < sums.size(); ++s) {
+    SensorQuality quality{measurements.sensor_names[s], sums[s].board_rms(), sums[s].stripe_rms(), 0, 0};
+    for (const auto& view : measurements.views) {
+      if (view.sensor != static_cast<int>(s)) continue;
+      ++quality.board_views;
+      quality.stripe_views +=
+          std::any_of(view.stripes.begin(), view.stripes.end(), [](const auto& x) { return !x.empty(); });
+    }
+    result.push_back(quality);
+  }
+  return result;
+}
+
+void refuse_bad_adjustment(const JointAdjustment& adjustment, const std::vector<SensorQuality>& quality) {
+  constexpr double kMaxRms_px = 2;  // beyond it board or stripes are not what the session says
+  if (!adjustment.converged)
+    throw NotUsable(
+        fmt::format("the adjustment did not converge in {} iterations; look for views with a large error and "
+                    "leave them out",
+                    adjustment.iterations));
+  for (std::size_t s = 0; s < quality.size(); ++s) {
+    const auto& q = quality[s];
+    if (q.board_rms_px > kMaxRms_px)
+      throw NotUsable(fmt::format(
+          "sensor {}: the corners miss the board by {:.1f} px; check the pitch of the squares in x "
+          "and y and the images with the largest error",
+          q.name, q.board_rms_px));
+    if (q.stripe_rms_px > kMaxRms_px)
+      throw NotUsable(
+          fmt::format("sensor {}: the stripes miss the laser plane by {:.1f} px; check that each laser image "
+                      "shows the same pose as its board image",
+                      q.name, q.stripe_rms_px));
+    if (!invertible_over_image(adjustment.state.sensors[s].camera))
+      throw NotUsable(fmt::format(
+          "sensor {}: the distortion found cannot be inverted over the whole image; bring the board "
+          "into the image's corners, or use fewer distortion_terms",
+          q.name));
+  }
+  if (adjustment.covariance.size() == 0)
+    throw NotUsable(
+        "the views leave a direction of the rig open (singular normal matrix); tilt the board to more "
+        "different "
+        "sides and hold it at more different distances");
+}
+
+void refuse_uncertain_section(const JointAdjustment& adjustment, double shape_sigma_mm) {
+  constexpr double kMaxShare = 5e-4;  // of the range: 0.25 mm at 500 mm
+  double range = 0;
+  for (const auto& pose : adjustment.state.first_from_board) range = std::max(range, pose.translation.norm());
+  if (shape_sigma_mm > kMaxShare * range)
+    throw NotUsable(
+        fmt::format("the shape of a section would be uncertain by {:.2f} mm; take more views with the board "
+                    "tilted by 20 to 45 degrees to different sides, over the whole measuring range",
+                    shape_sigma_mm));
+}
+
+std::vector<std::string> warnings_about(const Measurements& measurements, const JointAdjustment& adjustment,
+                                        const std::vector<ViewResidual>& views) {
+  constexpr double kMuch = 0.2;  // share of a view's measurements left out
+  constexpr double kLittleTilt_deg = 15, kLittleCoverage = 0.4;
+  std::vector<std::string> warnings;
+  for (const auto& view : views) {
+    const int all = view.corners + view.stripe_points + view.left_out;
+    if (view.left_out > kMuch * all)
+      warnings.push_back(fmt::format("{}: {} of {} measurements do not fit and were left out", view.image,
+                                     view.left_out, all));
+  }
+  for (std::size_t s = 0; s < measurements.sensor_names.size(); ++s) {
+    const auto& name = measurements.sensor_names[s];
+    const double tilt = tilt_spread_deg(measurements, adjustment.state, static_cast<int>(s));
+    if (tilt < kLittleTilt_deg)
+      warnings.push_back(fmt::format(
+          "sensor {}: boards tilted by {:.0f} degrees at most; 20 to 45 make range and shape surer", name,
+          tilt));
+    const double coverage = stripe_coverage(measurements, adjustment.measurements, static_cast<int>(s));
+    if (coverage < kLittleCoverage)
+      warnings.push_back(fmt::format(
+          "sensor {}: the boards' stripes cover {:.0f} % of the image's diagonal; beyond them the "
+          "laser plane is extrapolated",
+          name, 100 * coverage));
+  }
+  if (measurements.motion != MotionType::kLinear)
+    warnings.push_back(
+        "no linear motion was calibrated: x is the first laser plane's normal, not the direction of travel");
+  return warnings;
+}
+
+}  // namespace lightstripe

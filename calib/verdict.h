@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+// Whether a calibration can be used, and what a user should know about it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "calib/joint_adjustment.h"
+#include "core/rig.h"
+
+namespace lightstripe {
+
+/// Rms of each view's used measurements, px; corners as length of the 2D residual.
+std::vector<ViewResidual> view_residuals(const Measurements& measurements,
+                                         const std::vector<Measurement>& list);
+
+/// The same by sensor.
+std::vector<SensorQuality> sensor_quality(const Measurements& measurements,
+                                          const std::vector<Measurement>& list);
+
+/// Throws NotUsable where the adjustment failed or its result must not be used. Needs no covariance.
+void refuse_bad_adjustment(const JointAdjustment& adjustment, const std::vector<SensorQuality>& quality);
+
+/// Throws NotUsable where the predicted error of the section's shape is out of all proportion to the range.
+void refuse_uncertain_section(const JointAdjustment& adjustment, double shape_sigma_mm);
+
+/// Weak spots that do not forbid the use: views that hardly fit, little tilt, little coverage.
+std::vector<std::string> warnings_about(const Measurements& measurements, const JointAdjustment& adjustment,
+                                        const std::vector<ViewResidual>& views);
+
+}  // namespace lightstripe

@@ -1,0 +1,135 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+// What the README shows is true: its commands run as they stand there, its tables are those of a fresh run.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <regex>
+#include <vector>
+
+#include "command_line.h"
+#include "io/session_file.h"
+
+namespace lightstripe {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::stringstream in(text);
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  return lines;
+}
+
+/// The commands of the README's sh blocks, without indent and comments.
+std::vector<std::string> commands_of(const std::string& readme) {
+  std::vector<std::string> commands;
+  bool inside = false;
+  for (std::string line : lines_of(readme)) {
+    line.erase(0, line.find_first_not_of(' '));
+    if (line.starts_with("```")) {
+      inside = line == "```sh";
+    } else if (inside && !line.empty()) {
+      line = line.substr(0, line.find(" #"));
+      commands.push_back(line.substr(0, line.find_last_not_of(' ') + 1));
+    }
+  }
+  return commands;
+}
+
+/// Rows "| what | number unit |" between the markers.
+std::vector<std::pair<std::string, double>> table_rows(const std::string& text) {
+  std::vector<std::pair<std::string, double>> rows;
+  const std::regex row(R"(\| (.*?) +\| +([0-9.]+) (?:mm|deg|%) \|)");
+  for (const auto& line : lines_of(text))
+    if (std::smatch match; std::regex_match(line, match, row)) rows.emplace_back(match[1], std::stod(match[2]));
+  return rows;
+}
+
+std::string between(const std::string& text, const std::string& begin, const std::string& end) {
+  const auto from = text.find(begin), to = text.find(end);
+  return from == std::string::npos || to == std::string::npos ? "" : text.substr(from, to - from);
+}
+
+std::string readme() { return text_of(LIGHTSTRIPE_SOURCE_DIR "/README.md"); }
+
+TEST(Readme, HasAtMost120Lines) { EXPECT_LE(lines_of(readme()).size(), 120U); }
+
+TEST(Readme, BeginsWithExactlyTwoCommandsThatAreInTheTree) {
+  const auto commands = commands_of(readme());
+  ASSERT_GE(commands.size(), 2U);
+  EXPECT_EQ(commands[0], "scripts/demo");
+  EXPECT_EQ(commands[1], "scripts/test");
+  for (const auto& script : {commands[0], commands[1]})
+    EXPECT_EQ(fs::status(fs::path(LIGHTSTRIPE_SOURCE_DIR) / script).permissions() & fs::perms::owner_exec, fs::perms::owner_exec);
+}
+
+TEST(Readme, LinksLeadToFiles) {
+  const std::string text = readme();
+  const std::regex link(R"(\]\(([^)]+)\))");
+  for (std::sregex_iterator it(text.begin(), text.end(), link), end; it != end; ++it)
+    EXPECT_TRUE(fs::exists(fs::path(LIGHTSTRIPE_SOURCE_DIR) / (*it)[1].str())) << (*it)[1];
+}
+
+TEST(Readme, CommandsForTheOwnRigRunAsTheyStand) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(run_lightstripe("simulate testdata/one_sensor.yaml -o " + quoted(folder.path())).exit_code, 0);
+  fs::rename(folder / "calibration.yaml", folder / "session.yaml");
+  fs::copy(folder / "scan/solo/0002.png", folder / "frame.png");
+  fs::create_directories(folder / "build/bin");
+  fs::create_symlink(LIGHTSTRIPE_BINARY, folder / "build/bin/lightstripe");
+  for (const auto& command : commands_of(readme())) {
+    if (command.starts_with("scripts/")) continue;
+    EXPECT_EQ(std::system(("cd " + quoted(folder.path()) + " && " + command).c_str()), 0) << command;
+  }
+  for (const std::string file : {"rig.yaml", "cloud.ply", "profiles.csv", "cloud.png", "stripes.csv", "overlay/frame.png"})
+    EXPECT_TRUE(fs::exists(folder / file)) << file;
+}
+
+/// The project's goals for the demo's scene. The place of a section is known only to about 0.4 mm by the physics of 20 boards,
+/// of a plane and of a sensor likewise (docs/method.md): three sigma.
+double largest_error_allowed(const std::string& what) {
+  if (what.find("direction") != std::string::npos) return 0.08;      // deg
+  if (what.find("shape") != std::string::npos) return 0.03;          // mm
+  if (what.find("more than 1 mm") != std::string::npos) return 0.1;  // %
+  return 1.2;                                                        // mm
+}
+
+// The demo is the project's figure scene: its numbers meet the goals, and the README's table is that of this run.
+TEST(Demo, MeetsTheFiguresAndTheReadmeTellsThem) {
+  const TemporaryFolder folder;
+  const auto result = run_lightstripe("demo -o " + quoted(folder / "demo"));
+  ASSERT_EQ(result.exit_code, 0) << result.out << result.err;
+  const auto rows = table_rows(result.out);
+  ASSERT_GE(rows.size(), 8U) << result.out;
+  for (const auto& [what, value] : rows) {
+    if (what.find("recovered") != std::string::npos) {
+      EXPECT_GE(value, 97.0) << what;
+    } else {
+      EXPECT_LT(value, largest_error_allowed(what)) << what;
+    }
+  }
+  const auto told = table_rows(between(readme(), "<!-- accuracy: begin -->", "<!-- accuracy: end -->"));
+  ASSERT_EQ(told.size(), rows.size()) << "run scripts/update_readme";
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    EXPECT_EQ(told[i].first, rows[i].first);
+    // Another processor may round otherwise: the last digits may differ, the statement may not.
+    EXPECT_NEAR(told[i].second, rows[i].second, 0.1 * rows[i].second + 0.002) << told[i].first << ": run scripts/update_readme";
+  }
+  for (const std::string file : {"cloud.ply", "cloud.png", "rig.yaml", "profiles.csv", "overlay/gauge.png", "overlay/field.png"})
+    EXPECT_TRUE(fs::exists(folder / "demo" / file)) << file;
+}
+
+TEST(Configs, TheCommentedExamplesAreRead) {
+  const Session session = read_session(LIGHTSTRIPE_SOURCE_DIR "/configs/calibration.yaml");
+  EXPECT_EQ(session.sensors.size(), 2U);
+  EXPECT_TRUE(session.motion.has_value());
+  EXPECT_EQ(read_scan(LIGHTSTRIPE_SOURCE_DIR "/configs/scan.yaml").frames.size(), 2U);
+}
+
+}  // namespace
+}  // namespace lightstripe
