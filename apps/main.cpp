@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
+#include <opencv2/core/utils/logger.hpp>
 
 #include "apps/command.h"
 #include "core/error.h"
@@ -45,6 +46,8 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  // OpenCV's own lines on stderr say less than our one error line, and would stand before it.
+  cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
   try {
     return run(argc, argv);
   } catch (const lightstripe::Error& error) {

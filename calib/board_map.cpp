@@ -48,11 +48,11 @@ Vector2d BoardMap::operator()(const Vector2d& pixel) const {
 }
 
 Eigen::Matrix2d BoardMap::derivative(const Vector2d& pixel) const {
-  constexpr double kStep_px = 0.5;
+  constexpr double kStepPx = 0.5;
   Eigen::Matrix2d J;
   for (int i = 0; i < 2; ++i) {
-    const Vector2d step = kStep_px * Vector2d::Unit(i);
-    J.col(i) = ((*this)(pixel + step) - (*this)(pixel - step)) / (2 * kStep_px);
+    const Vector2d step = kStepPx * Vector2d::Unit(i);
+    J.col(i) = ((*this)(pixel + step) - (*this)(pixel - step)) / (2 * kStepPx);
   }
   return J;
 }

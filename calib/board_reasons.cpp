@@ -53,7 +53,7 @@ std::string size_seen(const CornerGrid& grid, const Target& target) {
 }
 
 std::string about_grid(const CornerGrid& grid, const cv::Mat& gray, const Target& target) {
-  if (same_size(grid, target))
+  if (same_size(grid, target) && !touches_border(grid, gray))
     return fmt::format("{} of {} corners are hidden or unclear", target.num_corners() - grid.count(),
                        target.num_corners());
   const bool smaller = std::max(grid.columns, grid.rows) <= std::max(target.columns, target.rows) &&
@@ -86,7 +86,7 @@ double edge_width_px(const cv::Mat& gray) {
 
 std::string why_not_found(const cv::Mat& gray, const Target& target, const std::vector<CornerGrid>& grids) {
   constexpr int kDark = 35, kFlat = 25;  // grey levels
-  constexpr double kBlurred_px = 8;
+  constexpr double kBlurredPx = 8;
   const int light = grey_percentile(gray, 0.98), dark = grey_percentile(gray, 0.02);
   if (light < kDark)
     return fmt::format("too dark: nearly all pixels are below grey level {}; more light or exposure",
@@ -95,7 +95,7 @@ std::string why_not_found(const cv::Mat& gray, const Target& target, const std::
   const bool seen = !grids.empty() && grids.front().count() >= std::min(12, target.num_corners() / 2);
   if (seen) return about_grid(grids.front(), gray, target);
   const double edge = edge_width_px(gray);
-  if (edge > kBlurred_px)
+  if (edge > kBlurredPx)
     return fmt::format("blurred: edges are {:.0f} px wide; focus, or hold the board still", edge);
   return fmt::format("no board of {} x {} inner corners in view (hidden, cut off, or too steep)",
                      target.columns, target.rows);

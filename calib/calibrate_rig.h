@@ -16,10 +16,11 @@ namespace lightstripe {
 struct CalibrationOptions {
   double corner_sigma_px = 0.1;         ///< expected 1-sigma error of a corner, px
   double stripe_sigma_floor_px = 0.05;  ///< added in quadrature to each stripe point's own sigma_px
-  double robust_scale = 3.0;            ///< residuals beyond this many sigma lose weight (Huber)
+  double robust_scale = 3.0;            ///< residuals beyond this many sigma lose weight (Huber, then Cauchy)
   double outlier_sigma = 4.5;           ///< residuals beyond this many sigma are left out of the last rounds
-  int distortion_terms =
-      5;  ///< of OpenCV's order: 4 (k1 k2 p1 p2), 5 (and k3), 8 (rational), 12 (thin prism)
+  /// Of OpenCV's order: 4 (k1 k2 p1 p2), 5 (and k3), 8 (rational), 12 (thin prism); 0: 5 where a k3 differs
+  /// from 0 by 3 sigma, else 4.
+  int distortion_terms = 0;
   int max_iterations = 100;  ///< of each round
 };
 
@@ -30,7 +31,8 @@ void visit_fields(V&& v, CalibrationOptions& o) {
     "added in quadrature to each stripe point's predicted error, px");
   v("robust_scale", o.robust_scale, "residuals beyond this many sigma lose weight");
   v("outlier_sigma", o.outlier_sigma, "residuals beyond this many sigma are left out");
-  v("distortion_terms", o.distortion_terms, "4 (k1 k2 p1 p2) | 5 (and k3) | 8 (rational) | 12 (thin prism)");
+  v("distortion_terms", o.distortion_terms,
+    "4 (k1 k2 p1 p2) | 5 (and k3) | 8 (rational) | 12 (thin prism); 0: 4 or 5, by the data");
   v("max_iterations", o.max_iterations, "of each round of the adjustment");
 }
 

@@ -5,16 +5,17 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <deque>
 #include <limits>
+#include <map>
 #include <numbers>
+#include <utility>
 
 namespace lightstripe {
 namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kMinSpacing_px = 6;
+constexpr double kMinSpacingPx = 6;
 const double kMaxTurn = std::cos(15 * std::numbers::pi / 180);  // of a link against the edge at its ends
 constexpr int kNone = -1;
 
@@ -41,7 +42,7 @@ int next_corner(const std::vector<SaddleCorner>& corners, int from, int k) {
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const Vector2d step = corners[i].position - corner.position;
     const double distance = step.norm();
-    if (distance < kMinSpacing_px || distance >= nearest || step.dot(along) < kMaxTurn * distance) continue;
+    if (distance < kMinSpacingPx || distance >= nearest || step.dot(along) < kMaxTurn * distance) continue;
     const int back = nearest_direction(corners[i], -along);
     const bool other_colours = back % 2 != k % 2;
     if (!other_colours || direction(corners[i], back).dot(-step) < kMaxTurn * distance) continue;
@@ -79,30 +80,63 @@ struct Placed {
 
 int positive_modulo_4(int k) { return ((k % 4) + 4) % 4; }
 
-/// Walks the links from `seed`; corners that two ways put at different places keep the first.
-std::vector<Placed> walk(const std::vector<SaddleCorner>& corners, const Links& links, int seed,
-                         std::vector<bool>& visited) {
-  static constexpr std::array<std::array<int, 2>, 4> kSteps{{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
-  std::vector<Placed> placed;
-  std::deque<Placed> open{{seed, 0, 0, 0}};
-  visited[static_cast<std::size_t>(seed)] = true;
-  while (!open.empty()) {
-    const Placed here = open.front();
-    open.pop_front();
-    placed.push_back(here);
-    for (int step = 0; step < 4; ++step) {
-      const int k = positive_modulo_4(here.x_direction + step);
-      const int j = links[static_cast<std::size_t>(here.corner)][static_cast<std::size_t>(k)];
-      if (j == kNone || visited[static_cast<std::size_t>(j)]) continue;
-      visited[static_cast<std::size_t>(j)] = true;
-      const auto& steps = kSteps[static_cast<std::size_t>(step)];
-      const int same = nearest_direction(corners[static_cast<std::size_t>(j)],
-                                         direction(corners[static_cast<std::size_t>(here.corner)], k));
-      open.push_back({j, here.column + steps[0], here.row + steps[1], positive_modulo_4(same - step)});
+using Cell = std::array<int, 2>;
+
+Cell operator+(const Cell& a, const Cell& b) { return {a[0] + b[0], a[1] + b[1]}; }
+Cell operator-(const Cell& a) { return {-a[0], -a[1]}; }
+
+/// A grid while it grows from a seed along the links.
+class Walk {
+ public:
+  Walk(const std::vector<SaddleCorner>& corners, const Links& links) : corners_(corners), links_(links) {}
+
+  std::vector<Placed> from(int seed, std::vector<bool>& visited) {
+    static constexpr std::array<Cell, 4> kSteps{{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
+    put({seed, 0, 0, 0}, visited);
+    for (std::size_t i = 0; i < placed_.size(); ++i) {
+      const Placed here = placed_[i];
+      for (int step = 0; step < 4; ++step) {
+        const int k = positive_modulo_4(here.x_direction + step);
+        const int next = links_[static_cast<std::size_t>(here.corner)][static_cast<std::size_t>(k)];
+        const Cell to = Cell{here.column, here.row} + kSteps[static_cast<std::size_t>(step)];
+        if (next == kNone || visited[static_cast<std::size_t>(next)] || cells_.count(to)) continue;
+        if (!continues(here, kSteps[static_cast<std::size_t>(step)], corner(next).position)) continue;
+        const int same = nearest_direction(corner(next), direction(corner(here.corner), k));
+        put({next, to[0], to[1], positive_modulo_4(same - step)}, visited);
+      }
     }
+    return std::move(placed_);
   }
-  return placed;
-}
+
+ private:
+  const SaddleCorner& corner(int i) const { return corners_[static_cast<std::size_t>(i)]; }
+
+  void put(const Placed& placed, std::vector<bool>& visited) {
+    visited[static_cast<std::size_t>(placed.corner)] = true;
+    cells_[{placed.column, placed.row}] = corner(placed.corner).position;
+    placed_.push_back(placed);
+  }
+
+  /// Whether the grid goes on at this position: one step as long as the last, or as the parallel one beside
+  /// it. Where another pattern begins, on another plane, it does not.
+  bool continues(const Placed& here, const Cell& step, const Vector2d& position) const {
+    constexpr double kMaxDeviation = 0.25;  // of the step
+    const Cell at{here.column, here.row}, beside{step[1], step[0]};
+    const Vector2d from = cells_.at(at);
+    std::optional<Vector2d> predicted;
+    if (const auto back = cells_.find(at + -step); back != cells_.end()) predicted = from - back->second;
+    for (const Cell& side : {beside, -beside}) {
+      const auto start = cells_.find(at + side), end = cells_.find(at + side + step);
+      if (!predicted && start != cells_.end() && end != cells_.end()) predicted = end->second - start->second;
+    }
+    return !predicted || (position - from - *predicted).norm() < kMaxDeviation * predicted->norm();
+  }
+
+  const std::vector<SaddleCorner>& corners_;
+  const Links& links_;
+  std::map<Cell, Vector2d> cells_;
+  std::vector<Placed> placed_;
+};
 
 CornerGrid grid_of(const std::vector<SaddleCorner>& corners, const std::vector<Placed>& placed) {
   int left = 0, right = 0, top = 0, bottom = 0;
@@ -113,7 +147,7 @@ CornerGrid grid_of(const std::vector<SaddleCorner>& corners, const std::vector<P
     bottom = std::max(bottom, p.row);
   }
   CornerGrid grid{right - left + 1, bottom - top + 1, {}};
-  grid.cells.resize(static_cast<std::size_t>(grid.columns * grid.rows));
+  grid.cells.resize(grid.index(0, grid.rows));
   for (const auto& p : placed) {
     auto& cell = grid.at(p.column - left, p.row - top);
     if (!cell) cell = corners[static_cast<std::size_t>(p.corner)].position;
@@ -156,7 +190,7 @@ std::vector<CornerGrid> link_corners(const std::vector<SaddleCorner>& corners) {
   std::vector<CornerGrid> grids;
   for (std::size_t i = 0; i < corners.size(); ++i) {
     if (visited[i]) continue;
-    const auto placed = walk(corners, links, static_cast<int>(i), visited);
+    const auto placed = Walk(corners, links).from(static_cast<int>(i), visited);
     if (placed.size() < 9) continue;
     CornerGrid grid = trimmed(grid_of(corners, placed));
     if (grid.columns >= 3 && grid.rows >= 3) grids.push_back(std::move(grid));

@@ -17,12 +17,12 @@ struct CornerGrid {
   int columns = 0, rows = 0;
   std::vector<std::optional<Eigen::Vector2d>> cells;
 
-  std::optional<Eigen::Vector2d>& at(int column, int row) {
-    return cells[static_cast<std::size_t>(row * columns + column)];
+  std::size_t index(int column, int row) const {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
+           static_cast<std::size_t>(column);
   }
-  const std::optional<Eigen::Vector2d>& at(int column, int row) const {
-    return cells[static_cast<std::size_t>(row * columns + column)];
-  }
+  std::optional<Eigen::Vector2d>& at(int column, int row) { return cells[index(column, row)]; }
+  const std::optional<Eigen::Vector2d>& at(int column, int row) const { return cells[index(column, row)]; }
   int count() const;
 };
 

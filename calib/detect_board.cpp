@@ -18,9 +18,9 @@ namespace {
 using Eigen::Vector2d;
 using Corners = std::vector<Vector2d>;
 
-constexpr double kRefineWindow = 0.35;   // half the window of the refinement, in distances to the next corner
-constexpr double kMaxMisfit = 0.05;      // rms of a found grid against a smooth map of the board, in squares
-constexpr int kMaxSearchSize_px = 1600;  // larger pictures are searched at half, a quarter ... of their size
+constexpr double kRefineWindow = 0.35;  // half the window of the refinement, in distances to the next corner
+constexpr double kMaxMisfit = 0.05;     // rms of a found grid against a smooth map of the board, in squares
+constexpr int kMaxSearchSizePx = 1600;  // larger pictures are searched at half, a quarter ... of their size
 
 std::optional<Corners> locate_by_opencv(const cv::Mat& gray, const Target& target) {
   std::vector<cv::Point2f> points;
@@ -31,28 +31,38 @@ std::optional<Corners> locate_by_opencv(const cv::Mat& gray, const Target& targe
   return corners;
 }
 
-/// A missed corner from its neighbours in the row or column.
-std::optional<Vector2d> between_neighbours(const CornerGrid& grid, int x, int y) {
+/// A missed corner from its neighbours in the row or column: between two, or beyond the last two.
+std::optional<Vector2d> by_neighbours(const CornerGrid& grid, int x, int y) {
+  const auto at = [&](int column, int row) -> std::optional<Vector2d> {
+    const bool inside = column >= 0 && row >= 0 && column < grid.columns && row < grid.rows;
+    return inside ? grid.at(column, row) : std::nullopt;
+  };
   Vector2d sum = Vector2d::Zero();
   int count = 0;
+  const auto add = [&](const std::optional<Vector2d>& a, double weight_a, const std::optional<Vector2d>& b) {
+    if (!a || !b) return;
+    sum += weight_a * *a + (1 - weight_a) * *b;
+    ++count;
+  };
   for (int dx = 0; dx <= 1; ++dx) {
     const int dy = 1 - dx;
-    if (x < dx || y < dy || x + dx >= grid.columns || y + dy >= grid.rows) continue;
-    const auto &before = grid.at(x - dx, y - dy), &after = grid.at(x + dx, y + dy);
-    if (!before || !after) continue;
-    sum += 0.5 * (*before + *after);
-    ++count;
+    add(at(x - dx, y - dy), 0.5, at(x + dx, y + dy));
+  }
+  for (int dx = 0; dx <= 1 && count == 0; ++dx) {
+    const int dy = 1 - dx;
+    add(at(x - dx, y - dy), 2, at(x - 2 * dx, y - 2 * dy));
+    add(at(x + dx, y + dy), 2, at(x + 2 * dx, y + 2 * dy));
   }
   return count > 0 ? std::optional<Vector2d>(sum / count) : std::nullopt;
 }
 
-/// The grid's corners; a few missed inside are filled in.
+/// The grid's corners; a few missed ones are filled in.
 std::optional<Corners> complete(const CornerGrid& grid) {
   if (grid.count() < 0.9 * grid.columns * grid.rows) return std::nullopt;
   Corners corners;
   for (int y = 0; y < grid.rows; ++y) {
     for (int x = 0; x < grid.columns; ++x) {
-      const auto corner = grid.at(x, y) ? grid.at(x, y) : between_neighbours(grid, x, y);
+      const auto corner = grid.at(x, y) ? grid.at(x, y) : by_neighbours(grid, x, y);
       if (!corner) return std::nullopt;
       corners.push_back(*corner);
     }
@@ -134,8 +144,8 @@ double first_square_contrast(const cv::Mat& gray, const Corners& corners, const 
   int count[2] = {0, 0};
   for (int y = 0; y + 1 < target.rows; ++y) {
     for (int x = 0; x + 1 < target.columns; ++x) {
-      const auto i = static_cast<std::size_t>(y * target.columns + x),
-                 below = i + static_cast<std::size_t>(target.columns);
+      const auto c = static_cast<std::size_t>(target.columns);
+      const std::size_t i = static_cast<std::size_t>(y) * c + static_cast<std::size_t>(x), below = i + c;
       const Vector2d middle = 0.25 * (corners[i] + corners[i + 1] + corners[below] + corners[below + 1]);
       const cv::Point at(static_cast<int>(std::lround(middle.x())),
                          static_cast<int>(std::lround(middle.y())));
@@ -154,6 +164,14 @@ Corners in_unique_order(const cv::Mat& gray, Corners corners, const Target& targ
   if (!target.half_turn_symmetric() && first_square_contrast(gray, corners, target) > 0)
     std::reverse(corners.begin(), corners.end());
   return corners;
+}
+
+bool in_view(const cv::Mat& gray, const Corners& corners) {
+  constexpr double kMarginPx = 2;
+  return std::all_of(corners.begin(), corners.end(), [&](const Vector2d& p) {
+    return p.minCoeff() >= kMarginPx && p.x() <= gray.cols - 1 - kMarginPx &&
+           p.y() <= gray.rows - 1 - kMarginPx;
+  });
 }
 
 cv::Mat shrunk(const cv::Mat& gray, int factor) {
@@ -181,17 +199,14 @@ BoardDetection detect_board(ImageView8 image, const Target& target) {
   const cv::Mat gray(image.height, image.width, CV_8UC1, const_cast<std::uint8_t*>(image.data),
                      static_cast<std::size_t>(image.stride));
   int factor = 1;
-  while (std::max(gray.cols, gray.rows) / factor > kMaxSearchSize_px) factor *= 2;
+  while (std::max(gray.cols, gray.rows) / factor > kMaxSearchSizePx) factor *= 2;
   const cv::Mat small = shrunk(gray, factor);
-  std::vector<CornerGrid> grids;
-  auto located = locate_by_opencv(small, target);
-  if (!located || misfit(*located, target) > kMaxMisfit) {
-    grids = link_corners(find_saddle_corners(small));
-    located = locate_by_links(grids, target);
-  }
+  const auto grids = link_corners(find_saddle_corners(small));
+  auto located = locate_by_links(grids, target);
+  if (!located) located = locate_by_opencv(small, target);  // six times slower, surer in blurred pictures
   if (located) {
     const Corners corners = refined(gray, enlarged(*located, factor), target);
-    result.found = misfit(corners, target) < kMaxMisfit;
+    result.found = in_view(gray, corners) && misfit(corners, target) < kMaxMisfit;
     if (result.found) result.corners = in_unique_order(gray, corners, target);
   }
   if (!result.found) result.reason = why_not_found(small, target, grids);

@@ -5,6 +5,7 @@
 #include <ceres/solver.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "calib/reduced_covariance.h"
@@ -13,15 +14,18 @@
 namespace lightstripe {
 namespace {
 
-constexpr double kMinSigma_px = 0.005;    // perfect data must not divide by zero
+constexpr double kMinSigmaPx = 0.005;     // perfect data must not divide by zero
 constexpr std::size_t kMinForSigma = 40;  // residuals of a group from which its sigma is estimated
 
 enum class Spread { kMedian, kRms };
 
-/// Corners of a sensor are one group, its stripe points another.
+/// Groups of equal error: a sensor's corners, its stripe points, and its corners of the travelling views,
+/// which carry the travel's own error.
+constexpr std::size_t kGroups = 3;
 std::size_t group_of(const Measurements& measurements, const Measurement& measurement) {
-  const auto sensor = static_cast<std::size_t>(measurements.views[measurement.view].sensor);
-  return 2 * sensor + (measurement.is_corner() ? 0 : 1);
+  const auto& view = measurements.views[measurement.view];
+  const std::size_t kind = !measurement.is_corner() ? 1 : view.pose < 0 ? 2 : 0;
+  return kGroups * static_cast<std::size_t>(view.sensor) + kind;
 }
 
 double stripe_sigma_px(const StripePoint& point, const CalibrationOptions& options) {
@@ -105,7 +109,7 @@ double spread_of(std::vector<double> normalised, Spread spread) {
 /// `redundancy` = 1 - unknowns / residuals.
 void estimate_sigmas(const Measurements& measurements, Spread spread, double redundancy,
                      std::vector<Measurement>& list) {
-  std::vector<std::vector<double>> groups(2 * measurements.sensor_names.size());
+  std::vector<std::vector<double>> groups(kGroups * measurements.sensor_names.size());
   for (const auto& measurement : list) {
     if (!measurement.used) continue;
     auto& group = groups[group_of(measurements, measurement)];
@@ -113,12 +117,13 @@ void estimate_sigmas(const Measurements& measurements, Spread spread, double red
       group.push_back(std::abs(measurement.residual_px[i]) / measurement.sigma_px);
   }
   std::vector<double> scales;
+  scales.reserve(groups.size());
   for (auto& group : groups)
     scales.push_back(
         group.size() < kMinForSigma ? 1.0 : spread_of(std::move(group), spread) / std::sqrt(redundancy));
   for (auto& measurement : list)
     measurement.sigma_px =
-        std::max(kMinSigma_px, measurement.sigma_px * scales[group_of(measurements, measurement)]);
+        std::max(kMinSigmaPx, measurement.sigma_px * scales[group_of(measurements, measurement)]);
 }
 
 void remove_outliers(double limit, std::vector<Measurement>& list) {
@@ -134,16 +139,20 @@ double redundancy_of(const ceres::Solver::Summary& summary) {
 
 JointAdjustment adjust_jointly(const Measurements& measurements, const RigState& start,
                                const CalibrationOptions& options) {
+  using Loss = ProblemOptions::Loss;
   enum { kGivenSigmas, kRobustSigmas, kWithoutOutliers, kFinal, kRounds };
+  // Huber finds its way from a rough start; Cauchy then lets go of a stripe or a view that is wrong as a
+  // whole.
+  static constexpr std::array<Loss, kRounds> kLosses{Loss::kHuber, Loss::kCauchy, Loss::kSquared,
+                                                     Loss::kSquared};
   JointAdjustment result;
   result.state = start;
   result.measurements = list_measurements(measurements, options);
-  for (int round = 0; round < kRounds; ++round) {
+  for (std::size_t round = 0; round < kRounds; ++round) {
     drop_unseen(measurements, result.state, result.measurements);
-    const double robust_scale = round <= kRobustSigmas ? options.robust_scale : 0;
     JointProblem joint(measurements, result.state, result.measurements,
-                       {options.distortion_terms, robust_scale});
-    const auto summary = solve(joint, options.max_iterations, round < kFinal ? 1e-8 : 1e-14);
+                       {options.distortion_terms, kLosses[round], options.robust_scale});
+    const auto summary = solve(joint, options.max_iterations, round < kFinal ? 1e-8 : 1e-11);
     result.iterations += static_cast<int>(summary.iterations.size());
     result.converged = summary.termination_type == ceres::CONVERGENCE;
     if (!summary.IsSolutionUsable()) return result;

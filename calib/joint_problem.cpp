@@ -25,9 +25,9 @@ std::array<double, kIntrinsics> intrinsics_block_of(const Camera& camera) {
   return block;
 }
 
-Camera camera_of(const Camera& like, const std::array<double, kIntrinsics>& block) {
+Camera camera_of(const Camera& like, const double* block) {
   Camera camera{like.width, like.height, block[0], block[1], block[2], block[3], {}};
-  std::copy(block.begin() + 4, block.end(), camera.distortion.begin());
+  std::copy(block + 4, block + kIntrinsics, camera.distortion.begin());
   return camera;
 }
 
@@ -37,7 +37,7 @@ std::array<double, 7> pose_block_of(const Rigid3& pose) {
   return {q.x(), q.y(), q.z(), q.w(), t.x(), t.y(), t.z()};
 }
 
-Rigid3 pose_of(const std::array<double, 7>& block) {
+Rigid3 pose_of(const double* block) {
   return {Eigen::Quaterniond(block[3], block[0], block[1], block[2]).normalized(),
           {block[4], block[5], block[6]}};
 }
@@ -46,7 +46,7 @@ std::array<double, 4> plane_block_of(const Plane& plane) {
   return {plane.normal.x(), plane.normal.y(), plane.normal.z(), plane.offset};
 }
 
-Plane plane_of(const std::array<double, 4>& block) {
+Plane plane_of(const double* block) {
   return {Eigen::Vector3d(block[0], block[1], block[2]).normalized(), block[3]};
 }
 
@@ -60,9 +60,9 @@ ceres::Manifold* intrinsics_manifold(int distortion_terms) {
 }
 
 /// A point of the axis is free across it only: the coordinate along the axis' largest component stays.
-ceres::Manifold* axis_point_manifold(const std::array<double, 3>& direction) {
+ceres::Manifold* axis_point_manifold(const Eigen::Vector3d& direction) {
   int largest = 0;
-  Eigen::Map<const Eigen::Vector3d>(direction.data()).cwiseAbs().maxCoeff(&largest);
+  direction.cwiseAbs().maxCoeff(&largest);
   return new ceres::SubsetManifold(3, {largest});
 }
 
@@ -71,18 +71,7 @@ ceres::Manifold* axis_point_manifold(const std::array<double, 3>& direction) {
 JointProblem::JointProblem(const Measurements& measurements, const RigState& state,
                            const std::vector<Measurement>& list, const ProblemOptions& options)
     : measurements_(&measurements), start_(state), options_(options) {
-  for (const auto& sensor : state.sensors) {
-    intrinsics_.push_back(intrinsics_block_of(sensor.camera));
-    cam_from_first_.push_back(pose_block_of(sensor.cam_from_first));
-    planes_.emplace_back();
-    for (const auto& plane : sensor.laser_planes) planes_.back().push_back(plane_block_of(plane));
-  }
-  for (const auto& pose : state.first_from_board) first_from_board_.push_back(pose_block_of(pose));
-  if (state.motion) {
-    motion_board_ = pose_block_of(state.motion->first_from_board);
-    direction_ = block_of(state.motion->direction);
-    axis_point_ = block_of(state.motion->axis_point);
-  }
+  store_state(state);
   problem_ = std::make_unique<ceres::Problem>();
   add_blocks(list);
   for (const auto& measurement : list) {
@@ -90,6 +79,30 @@ JointProblem::JointProblem(const Measurements& measurements, const RigState& sta
     const auto& view = measurements.views[measurement.view];
     measurement.is_corner() ? add_corner(view, measurement) : add_stripe_point(view, measurement);
   }
+}
+
+template <std::size_t Size>
+double* JointProblem::store(const std::array<double, Size>& values) {
+  LIGHTSTRIPE_CHECK(storage_.size() + Size <= storage_.capacity(), "blocks must not move");
+  storage_.insert(storage_.end(), values.begin(), values.end());
+  return storage_.data() + (storage_.size() - Size);
+}
+
+void JointProblem::store_state(const RigState& state) {
+  std::size_t size = 13 + 7 * state.first_from_board.size();
+  for (const auto& sensor : state.sensors) size += kIntrinsics + 7 + 4 * sensor.laser_planes.size();
+  storage_.reserve(size);
+  for (const auto& sensor : state.sensors) {
+    intrinsics_.push_back(store(intrinsics_block_of(sensor.camera)));
+    cam_from_first_.push_back(store(pose_block_of(sensor.cam_from_first)));
+    planes_.emplace_back();
+    for (const auto& plane : sensor.laser_planes) planes_.back().push_back(store(plane_block_of(plane)));
+  }
+  for (const auto& pose : state.first_from_board) first_from_board_.push_back(store(pose_block_of(pose)));
+  if (!state.motion) return;
+  motion_board_ = store(pose_block_of(state.motion->first_from_board));
+  direction_ = store(block_of(state.motion->direction));
+  axis_point_ = store(block_of(state.motion->axis_point));
 }
 
 void JointProblem::add_global(GlobalBlock block, double* data, ceres::Manifold* manifold) {
@@ -104,23 +117,22 @@ void JointProblem::add_blocks(const std::vector<Measurement>& list) {
   using Kind = GlobalBlock::Kind;
   for (std::size_t s = 0; s < intrinsics_.size(); ++s) {
     const int sensor = static_cast<int>(s);
-    add_global({Kind::kIntrinsics, sensor}, intrinsics_[s].data(),
-               intrinsics_manifold(options_.distortion_terms));
+    add_global({Kind::kIntrinsics, sensor}, intrinsics_[s], intrinsics_manifold(options_.distortion_terms));
     if (s == 0) {
-      problem_->AddParameterBlock(cam_from_first_[s].data(), 7);
-      problem_->SetParameterBlockConstant(cam_from_first_[s].data());
+      problem_->AddParameterBlock(cam_from_first_[s], 7);
+      problem_->SetParameterBlockConstant(cam_from_first_[s]);
     } else {
-      add_global({Kind::kCamFromFirst, sensor}, cam_from_first_[s].data(), new PoseManifold);
+      add_global({Kind::kCamFromFirst, sensor}, cam_from_first_[s], new PoseManifold);
     }
     for (std::size_t p = 0; p < planes_[s].size(); ++p)
-      add_global({Kind::kLaserPlane, sensor, static_cast<int>(p)}, planes_[s][p].data(), new PlaneManifold);
+      add_global({Kind::kLaserPlane, sensor, static_cast<int>(p)}, planes_[s][p], new PlaneManifold);
   }
-  if (start_.motion) add_global({Kind::kDirection}, direction_.data(), new ceres::SphereManifold<3>);
+  if (start_.motion) add_global({Kind::kDirection}, direction_, new ceres::SphereManifold<3>);
   if (measurements_->motion == MotionType::kRotary) {
-    add_global({Kind::kAxisPoint}, axis_point_.data(), axis_point_manifold(direction_));
+    add_global({Kind::kAxisPoint}, axis_point_, axis_point_manifold(start_.motion->direction));
   } else if (start_.motion) {
-    problem_->AddParameterBlock(axis_point_.data(), 3);
-    problem_->SetParameterBlockConstant(axis_point_.data());
+    problem_->AddParameterBlock(axis_point_, 3);
+    problem_->SetParameterBlockConstant(axis_point_);
   }
   for (const auto& measurement : list) {
     double* block = pose_block(measurements_->views[measurement.view]);
@@ -131,11 +143,14 @@ void JointProblem::add_blocks(const std::vector<Measurement>& list) {
 }
 
 double* JointProblem::pose_block(const ViewMeasurement& view) {
-  return view.pose < 0 ? motion_board_.data() : first_from_board_[static_cast<std::size_t>(view.pose)].data();
+  return view.pose < 0 ? motion_board_ : first_from_board_[static_cast<std::size_t>(view.pose)];
 }
 
 ceres::LossFunction* JointProblem::loss() const {
-  return options_.robust_scale > 0 ? new ceres::HuberLoss(options_.robust_scale) : nullptr;
+  using Loss = ProblemOptions::Loss;
+  if (options_.loss == Loss::kHuber) return new ceres::HuberLoss(options_.robust_scale);
+  if (options_.loss == Loss::kCauchy) return new ceres::CauchyLoss(options_.robust_scale);
+  return nullptr;
 }
 
 void JointProblem::add_corner(const ViewMeasurement& view, const Measurement& measurement) {
@@ -143,8 +158,8 @@ void JointProblem::add_corner(const ViewMeasurement& view, const Measurement& me
   const Eigen::Vector2d p = measurements_->target.corner(static_cast<int>(measurement.index));
   const Eigen::Vector3d p_board(p.x(), p.y(), 0);
   const Eigen::Vector2d& pixel = view.corners[measurement.index];
-  double* intrinsics = intrinsics_[sensor].data();
-  double* cam_from_first = cam_from_first_[sensor].data();
+  double* intrinsics = intrinsics_[sensor];
+  double* cam_from_first = cam_from_first_[sensor];
   if (view.pose >= 0) {
     problem_->AddResidualBlock(new CornerResidual(p_board, pixel, measurement.sigma_px), loss(), intrinsics,
                                cam_from_first, pose_block(view));
@@ -153,7 +168,7 @@ void JointProblem::add_corner(const ViewMeasurement& view, const Measurement& me
   const double signed_travel = measurements_->motion_sign() * view.travel;
   problem_->AddResidualBlock(
       new TravelCornerResidual(p_board, pixel, measurement.sigma_px, measurements_->motion, signed_travel),
-      loss(), intrinsics, cam_from_first, pose_block(view), direction_.data(), axis_point_.data());
+      loss(), intrinsics, cam_from_first, pose_block(view), direction_, axis_point_);
 }
 
 void JointProblem::add_stripe_point(const ViewMeasurement& view, const Measurement& measurement) {
@@ -166,8 +181,7 @@ void JointProblem::add_stripe_point(const ViewMeasurement& view, const Measureme
   const auto frame = stripe_frame(sensor.camera, board_plane(cam_from_board), sensor.laser_planes[p], pixel);
   LIGHTSTRIPE_CHECK(frame.has_value(), "a stripe point that no ray explains must not be used");
   problem_->AddResidualBlock(new StripeResidual(pixel, frame->normal, frame->across, measurement.sigma_px),
-                             loss(), intrinsics_[s].data(), cam_from_first_[s].data(), pose_block(view),
-                             planes_[s][p].data());
+                             loss(), intrinsics_[s], cam_from_first_[s], pose_block(view), planes_[s][p]);
 }
 
 RigState JointProblem::state() const {
@@ -182,8 +196,8 @@ RigState JointProblem::state() const {
     result.first_from_board[i] = pose_of(first_from_board_[i]);
   if (result.motion) {
     result.motion->first_from_board = pose_of(motion_board_);
-    result.motion->direction = Eigen::Map<const Eigen::Vector3d>(direction_.data()).normalized();
-    result.motion->axis_point = Eigen::Map<const Eigen::Vector3d>(axis_point_.data());
+    result.motion->direction = Eigen::Map<const Eigen::Vector3d>(direction_).normalized();
+    result.motion->axis_point = Eigen::Map<const Eigen::Vector3d>(axis_point_);
   }
   return result;
 }
@@ -206,22 +220,22 @@ RigState moved_state(const RigState& state, const std::vector<GlobalBlock>& glob
       auto from = intrinsics_block_of(sensor.camera), to = from;
       std::unique_ptr<ceres::Manifold>(intrinsics_manifold(distortion_terms))
           ->Plus(from.data(), step, to.data());
-      sensor.camera = camera_of(sensor.camera, to);
+      sensor.camera = camera_of(sensor.camera, to.data());
     } else if (block.kind == Kind::kCamFromFirst) {
       auto from = pose_block_of(sensor.cam_from_first), to = from;
       PoseManifold().Plus(from.data(), step, to.data());
-      sensor.cam_from_first = pose_of(to);
+      sensor.cam_from_first = pose_of(to.data());
     } else if (block.kind == Kind::kLaserPlane) {
       auto& plane = sensor.laser_planes[static_cast<std::size_t>(block.plane)];
       auto from = plane_block_of(plane), to = from;
       PlaneManifold().Plus(from.data(), step, to.data());
-      plane = plane_of(to);
+      plane = plane_of(to.data());
     } else if (block.kind == Kind::kDirection) {
       const auto from = block_of(state.motion->direction);
       ceres::SphereManifold<3>().Plus(from.data(), step, result.motion->direction.data());
     } else {
       auto from = block_of(state.motion->axis_point), to = from;
-      std::unique_ptr<ceres::Manifold>(axis_point_manifold(block_of(state.motion->direction)))
+      std::unique_ptr<ceres::Manifold>(axis_point_manifold(state.motion->direction))
           ->Plus(from.data(), step, to.data());
       result.motion->axis_point = {to[0], to[1], to[2]};
     }

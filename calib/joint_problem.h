@@ -39,7 +39,8 @@ struct GlobalBlock {
 
 struct ProblemOptions {
   int distortion_terms = 5;  ///< 4, 5, 8 or 12 of OpenCV's order
-  double robust_scale = 0;   ///< Huber's, in sigma; 0: least squares
+  enum class Loss { kSquared, kHuber, kCauchy } loss = Loss::kSquared;
+  double robust_scale = 3;  ///< of the loss, in sigma
 };
 
 /// Owns the unknowns while Ceres works on them. Measurements that are not `used` are left out; the constants
@@ -48,6 +49,9 @@ class JointProblem {
  public:
   JointProblem(const Measurements& measurements, const RigState& state, const std::vector<Measurement>& list,
                const ProblemOptions& options);
+
+  JointProblem(const JointProblem&) = delete;  // blocks are known by their addresses
+  JointProblem& operator=(const JointProblem&) = delete;
 
   ceres::Problem& problem() { return *problem_; }
   RigState state() const;
@@ -62,6 +66,9 @@ class JointProblem {
  private:
   void add_corner(const ViewMeasurement& view, const Measurement& measurement);
   void add_stripe_point(const ViewMeasurement& view, const Measurement& measurement);
+  template <std::size_t Size>
+  double* store(const std::array<double, Size>& values);
+  void store_state(const RigState& state);
   void add_blocks(const std::vector<Measurement>& list);
   void add_global(GlobalBlock block, double* data, ceres::Manifold* manifold);
   double* pose_block(const ViewMeasurement& view);
@@ -70,11 +77,11 @@ class JointProblem {
   const Measurements* measurements_;
   RigState start_;
   ProblemOptions options_;
-  std::vector<std::array<double, 4 + kDistortionTerms>> intrinsics_;
-  std::vector<std::array<double, 7>> cam_from_first_, first_from_board_;
-  std::vector<std::vector<std::array<double, 4>>> planes_;
-  std::array<double, 7> motion_board_{};
-  std::array<double, 3> direction_{}, axis_point_{};
+  /// All unknowns in one array: Ceres orders blocks by address, and sums in that order.
+  std::vector<double> storage_;
+  std::vector<double*> intrinsics_, cam_from_first_, first_from_board_;
+  std::vector<std::vector<double*>> planes_;
+  double *motion_board_ = nullptr, *direction_ = nullptr, *axis_point_ = nullptr;
   std::vector<GlobalBlock> globals_;
   std::vector<double*> global_blocks_, pose_blocks_;
   std::unique_ptr<ceres::Problem> problem_;

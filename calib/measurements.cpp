@@ -106,11 +106,11 @@ Measurements prepare_measurements(const CalibrationObservations& observations) {
 }
 
 std::vector<StripePoint> independent_points(const std::vector<StripePoint>& points) {
-  constexpr double kMinSpacing_px = 2;  // also where the width is unknown
+  constexpr double kMinSpacingPx = 2;  // also where the width is unknown
   std::vector<StripePoint> kept;
   for (const auto& point : points) {
     if (point.flags & kStripeBridged) continue;
-    const double spacing_px = std::max(kMinSpacing_px, point.width);
+    const double spacing_px = std::max(kMinSpacingPx, point.width);
     if (kept.empty() || std::hypot(point.x - kept.back().x, point.y - kept.back().y) >= spacing_px)
       kept.push_back(point);
   }
@@ -121,6 +121,7 @@ std::vector<std::vector<int>> corner_orders(const Target& target) {
   std::vector<std::vector<int>> orders;
   for (const int turns : quarter_turns(target)) {
     std::vector<int> order;
+    order.reserve(static_cast<std::size_t>(target.num_corners()));
     for (int i = 0; i < target.num_corners(); ++i)
       order.push_back(turns == 2 ? target.num_corners() - 1 - i : turned_index(target, i, turns));
     orders.push_back(std::move(order));
@@ -138,6 +139,7 @@ Rigid3 board_turn(const Target& target, std::size_t k) {
 
 std::vector<Vector2d> relisted(const std::vector<Vector2d>& corners, const std::vector<int>& order) {
   std::vector<Vector2d> result;
+  result.reserve(order.size());
   for (const int index : order) result.push_back(corners[static_cast<std::size_t>(index)]);
   return result;
 }

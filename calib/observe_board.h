@@ -23,10 +23,10 @@ struct BoardDetection {
   std::size_t image = 0;  ///< which of the candidate images showed it
 };
 
-/// The board's corners to a few hundredths of a pixel: located by cv::findChessboardCornersSB, or where that
-/// fails (other patterns in the picture) by linking saddle points; refined by cv::cornerSubPix. The order is
-/// made unique: x cross y points into the board, and the square between the first four corners is dark where
-/// the target's colours can tell (columns + rows odd). Thread-safe.
+/// The board's corners to a few hundredths of a pixel: located by linking saddle points to grids, or where
+/// that fails by cv::findChessboardCornersSB; refined by cv::cornerSubPix. The order is made unique: x cross
+/// y points into the board, and the square between the first four corners is dark where the target's colours
+/// can tell (columns + rows odd). Thread-safe.
 BoardDetection detect_board(ImageView8 image, const Target& target);
 
 /// The first of several renderings of one picture that shows the board; of a colour picture with a laser line
@@ -36,7 +36,7 @@ BoardDetection detect_board(std::span<const ImageView8> candidates, const Target
 
 struct StripeOnBoard {
   std::vector<std::vector<StripePoint>> planes;  ///< for each laser plane, points on the board
-  std::string reason;                            ///< why there are none
+  std::string reason;  ///< why there are none, or too few of them; empty if all is well
 };
 
 /// The stripe's points on the board: `laser` shows the stripe; `board` (may be empty) shows the same pose

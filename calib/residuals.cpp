@@ -193,19 +193,15 @@ bool StripeResidual::Evaluate(const double* const* blocks, double* residuals, do
   const double by_a = by_point * a, by_b = by_point * b;
   const Eigen::RowVector3d by_origin = by_a * n_board.transpose();
   const Eigen::RowVector3d by_n_board = by_a * (origin - p_cam).transpose();
-  if (jacobians[1]) {
-    RowMajor<1, 7> J;
-    J << by_n_board * rotation_derivative(cam_from_first.rotation, z_first) +
-             by_origin * rotation_derivative(cam_from_first.rotation, first_from_board.translation),
-        by_origin;
-    write<1, 7>(J, jacobians[1]);
-  }
-  if (jacobians[2]) {
-    const Matrix3d R = cam_from_first.matrix();
-    RowMajor<1, 7> J;
-    J << by_n_board * R * rotation_derivative(first_from_board.rotation, Vector3d::UnitZ()), by_origin * R;
-    write<1, 7>(J, jacobians[2]);
-  }
+  const Matrix3d R = cam_from_first.matrix();
+  RowMajor<1, 7> by_camera, by_board;
+  by_camera << by_n_board * rotation_derivative(cam_from_first.rotation, z_first) +
+                   by_origin * rotation_derivative(cam_from_first.rotation, first_from_board.translation),
+      by_origin;
+  by_board << by_n_board * R * rotation_derivative(first_from_board.rotation, Vector3d::UnitZ()),
+      by_origin * R;
+  write<1, 7>(by_camera, jacobians[1]);
+  write<1, 7>(by_board, jacobians[2]);
   Eigen::RowVector4d by_plane;
   by_plane << -by_b * p_cam.transpose(), by_b;
   write<1, 4>(by_plane, jacobians[3]);

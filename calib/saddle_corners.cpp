@@ -13,11 +13,11 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kSmoothing_px = 1.5;
+constexpr double kSmoothingPx = 1.5;
 constexpr double kMinStrength = 0.004;  // of the strongest saddles: 6 % of their contrast
 constexpr std::size_t kMaxCorners = 3000;
 constexpr int kRing = 32;  // samples on the circle around a corner
-constexpr double kRingRadius_px = 5;
+constexpr double kRingRadiusPx = 5;
 constexpr double kMinSymmetry = 0.6;  // correlation of the ring with itself turned by half a turn
 constexpr double kMinSector = 20 * std::numbers::pi / 180;
 
@@ -35,7 +35,7 @@ std::vector<Candidate> find_candidates(const cv::Mat1f& smooth) {
   strength = xy.mul(xy) * 4 - xx.mul(yy);  // Sobel's mixed kernel answers half as strongly as the pure ones
   cv::dilate(strength, highest, cv::Mat1b::ones(7, 7));
   std::vector<Candidate> candidates;
-  const int border = static_cast<int>(kRingRadius_px) + 2;
+  const int border = static_cast<int>(kRingRadiusPx) + 2;
   for (int y = border; y < smooth.rows - border; ++y)
     for (int x = border; x < smooth.cols - border; ++x)
       if (strength(y, x) > 0 && strength(y, x) >= highest(y, x)) candidates.push_back({strength(y, x), x, y});
@@ -58,7 +58,7 @@ std::optional<std::array<float, kRing>> symmetric_ring(const cv::Mat1f& smooth, 
   for (int i = 0; i < kRing; ++i) {
     const double angle = 2 * std::numbers::pi * i / kRing;
     ring[static_cast<std::size_t>(i)] =
-        sample(smooth, at.x + kRingRadius_px * std::cos(angle), at.y + kRingRadius_px * std::sin(angle));
+        sample(smooth, at.x + kRingRadiusPx * std::cos(angle), at.y + kRingRadiusPx * std::sin(angle));
     mean += ring[static_cast<std::size_t>(i)] / kRing;
   }
   for (auto& value : ring) value -= mean;
@@ -112,7 +112,7 @@ std::optional<SaddleCorner> corner_at(const cv::Mat1f& smooth, const Candidate& 
 std::vector<SaddleCorner> find_saddle_corners(const cv::Mat& gray) {
   cv::Mat1f smooth;
   gray.convertTo(smooth, CV_32F);
-  cv::GaussianBlur(smooth, smooth, {}, kSmoothing_px);
+  cv::GaussianBlur(smooth, smooth, {}, kSmoothingPx);
   const auto candidates = find_candidates(smooth);
   std::vector<SaddleCorner> corners;
   if (candidates.empty()) return corners;

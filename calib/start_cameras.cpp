@@ -15,12 +15,13 @@ namespace lightstripe {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
-constexpr double kMinTilt_deg =
+constexpr double kMinTiltDeg =
     3;  // of the boards against their mean direction; below it f and the range are one
-constexpr double kMaxViewError_px = 3;  // a view beyond it has corners in a wrong order, or another board
+constexpr double kMaxViewErrorPx = 3;  // a view beyond it has corners in a wrong order, or another board
 
 std::vector<cv::Point2f> cv_points(const std::vector<Eigen::Vector2d>& corners) {
   std::vector<cv::Point2f> points;
+  points.reserve(corners.size());
   for (const auto& p : corners) points.emplace_back(static_cast<float>(p.x()), static_cast<float>(p.y()));
   return points;
 }
@@ -72,7 +73,7 @@ void refuse_parallel_boards(const std::vector<const ViewMeasurement*>& views, co
   double tilt = 0;
   for (const auto& normal : normals)
     tilt = std::max(tilt, std::acos(std::min(1.0, normal.dot(mean.normalized()))));
-  if (tilt < kMinTilt_deg * kDegree)
+  if (tilt < kMinTiltDeg * kDegree)
     throw NotUsable(
         fmt::format("sensor {}: all boards are parallel within {:.1f} degrees, so focal length and range "
                     "cannot be told apart; tilt the board by 20 to 45 degrees to different sides",
@@ -88,6 +89,7 @@ struct CameraStart {
 CameraStart calibrate_camera(const std::vector<const ViewMeasurement*>& views, const Target& target,
                              const std::string& sensor, const std::array<int, 2>& size) {
   std::vector<std::vector<cv::Point2f>> pixels;
+  pixels.reserve(views.size());
   for (const auto* view : views) pixels.push_back(cv_points(view->corners));
   const std::vector<std::vector<cv::Point3f>> boards(views.size(), cv_board(target));
   cv::Mat K, distortion, per_view;
@@ -121,10 +123,11 @@ CameraStart calibrate_camera_robustly(InitialValues& values, std::vector<std::si
   const std::size_t least = std::max<std::size_t>(3, indices.size() - indices.size() / 4);
   for (;;) {
     std::vector<const ViewMeasurement*> views;
+    views.reserve(indices.size());
     for (const auto i : indices) views.push_back(&values.measurements.views[i]);
     CameraStart start = calibrate_camera(views, values.measurements.target, sensor, size);
     const auto worst = std::max_element(start.view_rms_px.begin(), start.view_rms_px.end());
-    if (!(*worst > kMaxViewError_px) || indices.size() <= least) return start;
+    if (!(*worst > kMaxViewErrorPx) || indices.size() <= least) return start;
     const auto position = worst - start.view_rms_px.begin();
     values.warnings.push_back(fmt::format("{}: left out, its corners fit no pose of the board ({:.1f} px)",
                                           views[static_cast<std::size_t>(position)]->image, *worst));

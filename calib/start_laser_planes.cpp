@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <span>
 
 #include "calib/initial_values.h"
@@ -13,10 +14,10 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr std::size_t kMinPoints = 4;    // of a stripe on one board
+constexpr std::size_t kMinPoints = 3;    // of a stripe on one board
 constexpr std::size_t kMaxPairs = 2000;  // of views tried as the plane's start
-constexpr double kMinAgreement_mm =
-    1.0;  // a stripe nearer to the plane than this is never left out at the start
+// A stripe this near to the plane agrees with it, as a share of the range.
+constexpr double kRoughAgreement = 0.01, kAgreement = 0.0015;
 
 /// The stripe of one view, in space: rays cut with the board's plane.
 struct StripeInSpace {
@@ -63,11 +64,11 @@ PlaneFit plane_through(const std::vector<const StripeInSpace*>& stripes) {
 
 /// Least median over the views of the plane through two of them: up to half of the views may show something
 /// else.
-std::vector<const StripeInSpace*> agreeing(const std::vector<StripeInSpace>& stripes) {
+std::optional<Plane> least_median_plane(const std::vector<StripeInSpace>& stripes) {
   const std::size_t n = stripes.size();
   const std::size_t step = std::max<std::size_t>(1, n * (n - 1) / 2 / kMaxPairs);
   double best = std::numeric_limits<double>::infinity();
-  Plane plane;
+  std::optional<Plane> plane;
   std::size_t pair = 0;
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t j = i + 1; j < n; ++j, ++pair) {
@@ -75,6 +76,7 @@ std::vector<const StripeInSpace*> agreeing(const std::vector<StripeInSpace>& str
       const PlaneFit fit = plane_through({&stripes[i], &stripes[j]});
       if (!fit.determined()) continue;
       std::vector<double> distances;
+      distances.reserve(n);
       for (const auto& stripe : stripes) distances.push_back(distance_to(fit.plane, stripe));
       const double score = median(std::move(distances));
       if (score >= best) continue;
@@ -82,10 +84,33 @@ std::vector<const StripeInSpace*> agreeing(const std::vector<StripeInSpace>& str
       plane = fit.plane;
     }
   }
+  return plane;
+}
+
+std::vector<const StripeInSpace*> near_plane(const std::vector<StripeInSpace>& stripes, const Plane& plane,
+                                             double share_of_range, double least_mm) {
   std::vector<const StripeInSpace*> result;
   for (const auto& stripe : stripes)
-    if (distance_to(plane, stripe) <= std::max(kMinAgreement_mm, 5 * best)) result.push_back(&stripe);
+    if (distance_to(plane, stripe) <= std::max(share_of_range * stripe.points.front().norm(), least_mm))
+      result.push_back(&stripe);
   return result;
+}
+
+/// The stripes that lie in one plane. Two views alone place the plane badly elsewhere: all views near it, by
+/// a generous measure, place it better, and a strict measure then follows.
+std::vector<const StripeInSpace*> agreeing(const std::vector<StripeInSpace>& stripes) {
+  std::vector<const StripeInSpace*> roughly;
+  const auto start = least_median_plane(stripes);
+  if (start) roughly = near_plane(stripes, *start, kRoughAgreement, 0);
+  if (!start)
+    for (const auto& stripe : stripes)
+      roughly.push_back(&stripe);  // no pair spans a plane: the caller says so
+  if (!start || roughly.size() < 2) return roughly;
+  const Plane plane = plane_through(roughly).plane;
+  std::vector<double> distances;
+  distances.reserve(roughly.size());
+  for (const auto* stripe : roughly) distances.push_back(distance_to(plane, *stripe));
+  return near_plane(stripes, plane, kAgreement, 5 * median(std::move(distances)));
 }
 
 std::string plane_name(const InitialValues& values, int sensor, std::size_t plane) {
@@ -121,7 +146,10 @@ Plane start_plane(InitialValues& values, int sensor, std::size_t plane) {
                     name, stripes.size()));
   const auto kept = agreeing(stripes);
   if (kept.size() < 2)
-    throw NotUsable(fmt::format("{}: the stripes of the boards lie in no common plane", name));
+    throw NotUsable(
+        fmt::format("{}: the stripes of the boards lie in no common plane; check that each laser image shows "
+                    "the pose of its board image",
+                    name));
   const PlaneFit fit = plane_through(kept);
   refuse_degenerate(fit, kept, name);
   for (auto& view : values.measurements.views)

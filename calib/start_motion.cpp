@@ -126,7 +126,7 @@ MotionState fit_axis(const Track& track) {
 }  // namespace
 
 void start_motion(InitialValues& values) {
-  constexpr double kMinTravel_mm = 1, kMinTurn = 5 * kDegree;
+  constexpr double kMinTravelMm = 1, kMinTurn = 5 * kDegree;
   const bool rotary = values.measurements.motion == MotionType::kRotary;
   const Track track = follow_board(values);
   if (track.travel.size() < 2)
@@ -134,7 +134,7 @@ void start_motion(InitialValues& values) {
         "motion: the fixed board was found in {} images; at least 2 positions of travel are needed, "
         "better 5",
         track.travel.size()));
-  if (track.extent() < (rotary ? kMinTurn : kMinTravel_mm))
+  if (track.extent() < (rotary ? kMinTurn : kMinTravelMm))
     throw NotUsable("motion: all images of the fixed board have the same travel; move the rig between them");
   values.state.motion =
       rotary ? fit_axis(track) : fit_direction(track, values.measurements.target, values.warnings);

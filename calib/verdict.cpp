@@ -103,8 +103,10 @@ std::vector<SensorQuality> sensor_quality(const Measurements& measurements,
   return result;
 }
 
-void refuse_bad_adjustment(const JointAdjustment& adjustment, const std::vector<SensorQuality>& quality) {
-  constexpr double kMaxRms_px = 2;  // beyond it board or stripes are not what the session says
+void refuse_bad_adjustment(const Measurements& measurements, const JointAdjustment& adjustment,
+                           const std::vector<SensorQuality>& quality) {
+  constexpr double kMaxRmsPx = 2;    // beyond it board or stripes are not what the session says
+  constexpr double kMinTiltDeg = 5;  // below it range errors exceed a millimetre at half a metre
   if (!adjustment.converged)
     throw NotUsable(
         fmt::format("the adjustment did not converge in {} iterations; look for views with a large error and "
@@ -112,21 +114,22 @@ void refuse_bad_adjustment(const JointAdjustment& adjustment, const std::vector<
                     adjustment.iterations));
   for (std::size_t s = 0; s < quality.size(); ++s) {
     const auto& q = quality[s];
-    if (q.board_rms_px > kMaxRms_px)
+    if (q.board_rms_px > kMaxRmsPx)
       throw NotUsable(fmt::format(
           "sensor {}: the corners miss the board by {:.1f} px; check the pitch of the squares in x "
           "and y and the images with the largest error",
           q.name, q.board_rms_px));
-    if (q.stripe_rms_px > kMaxRms_px)
+    if (q.stripe_rms_px > kMaxRmsPx)
       throw NotUsable(
           fmt::format("sensor {}: the stripes miss the laser plane by {:.1f} px; check that each laser image "
                       "shows the same pose as its board image",
                       q.name, q.stripe_rms_px));
-    if (!invertible_over_image(adjustment.state.sensors[s].camera))
+    const double tilt = tilt_spread_deg(measurements, adjustment.state, static_cast<int>(s));
+    if (tilt < kMinTiltDeg)
       throw NotUsable(fmt::format(
-          "sensor {}: the distortion found cannot be inverted over the whole image; bring the board "
-          "into the image's corners, or use fewer distortion_terms",
-          q.name));
+          "sensor {}: the boards are tilted by {:.1f} degrees at most, so focal length and range can "
+          "hardly be told apart; tilt the board by 20 to 45 degrees to different sides",
+          q.name, tilt));
   }
   if (adjustment.covariance.size() == 0)
     throw NotUsable(
@@ -146,10 +149,19 @@ void refuse_uncertain_section(const JointAdjustment& adjustment, double shape_si
                     shape_sigma_mm));
 }
 
+void refuse_folded_image(const Measurements& measurements, const RigState& state) {
+  for (std::size_t s = 0; s < state.sensors.size(); ++s)
+    if (!invertible_over_image(state.sensors[s].camera))
+      throw NotUsable(fmt::format(
+          "sensor {}: the distortion found cannot be inverted over the whole image; bring the board into "
+          "the image's corners, or use fewer distortion_terms",
+          measurements.sensor_names[s]));
+}
+
 std::vector<std::string> warnings_about(const Measurements& measurements, const JointAdjustment& adjustment,
                                         const std::vector<ViewResidual>& views) {
   constexpr double kMuch = 0.2;  // share of a view's measurements left out
-  constexpr double kLittleTilt_deg = 15, kLittleCoverage = 0.4;
+  constexpr double kLittleTiltDeg = 15, kLittleCoverage = 0.4;
   std::vector<std::string> warnings;
   for (const auto& view : views) {
     const int all = view.corners + view.stripe_points + view.left_out;
@@ -160,7 +172,7 @@ std::vector<std::string> warnings_about(const Measurements& measurements, const 
   for (std::size_t s = 0; s < measurements.sensor_names.size(); ++s) {
     const auto& name = measurements.sensor_names[s];
     const double tilt = tilt_spread_deg(measurements, adjustment.state, static_cast<int>(s));
-    if (tilt < kLittleTilt_deg)
+    if (tilt < kLittleTiltDeg)
       warnings.push_back(fmt::format(
           "sensor {}: boards tilted by {:.0f} degrees at most; 20 to 45 make range and shape surer", name,
           tilt));

@@ -20,10 +20,14 @@ std::vector<SensorQuality> sensor_quality(const Measurements& measurements,
                                           const std::vector<Measurement>& list);
 
 /// Throws NotUsable where the adjustment failed or its result must not be used. Needs no covariance.
-void refuse_bad_adjustment(const JointAdjustment& adjustment, const std::vector<SensorQuality>& quality);
+void refuse_bad_adjustment(const Measurements& measurements, const JointAdjustment& adjustment,
+                           const std::vector<SensorQuality>& quality);
 
 /// Throws NotUsable where the predicted error of the section's shape is out of all proportion to the range.
 void refuse_uncertain_section(const JointAdjustment& adjustment, double shape_sigma_mm);
+
+/// Throws NotUsable where a camera's distortion is not monotonic over its image.
+void refuse_folded_image(const Measurements& measurements, const RigState& state);
 
 /// Weak spots that do not forbid the use: views that hardly fit, little tilt, little coverage.
 std::vector<std::string> warnings_about(const Measurements& measurements, const JointAdjustment& adjustment,

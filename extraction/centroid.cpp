@@ -37,7 +37,7 @@ void bright_runs(const PixelLine<T>& line, double level, double start, int longe
   }
 }
 
-/// Sum of squared run lengths over runs: stripes that cross the lines steeply have short runs.
+/// Mean length of the runs above `level`, px: short where stripes cross the columns (rows) steeply.
 template <class T>
 double mean_run(ImageView<T> image, bool columns, double level) {
   double runs = 0, pixels = 0;
@@ -60,7 +60,7 @@ struct OpenLine {
 };
 
 /// Normals from the neighbours along the line; strength as a Gaussian of that peak would have at scale sigma.
-void finish(OpenLine& line, bool columns, const DerivativeKernels& kernels, LineSet& lines) {
+void finish(const OpenLine& line, const DerivativeKernels& kernels, LineSet& lines) {
   if (line.points.size() < 5) return;
   const auto count = static_cast<std::ptrdiff_t>(line.points.size());
   const std::size_t begin = lines.points.size();
@@ -74,7 +74,6 @@ void finish(OpenLine& line, bool columns, const DerivativeKernels& kernels, Line
     p.strength *= kernels.matched_strength();
     lines.points.push_back(p);
   }
-  (void)columns;
   lines.lines.push_back({begin, lines.points.size()});
 }
 
@@ -113,10 +112,10 @@ void find_lines_centroid(ImageView<T> image, const DerivativeKernels& kernels, c
       best->extended = true;
     }
     for (OpenLine& line : open)
-      if (!line.extended) finish(line, columns, kernels, lines);
+      if (!line.extended) finish(line, kernels, lines);
     std::erase_if(open, [](const OpenLine& line) { return !line.extended; });
   }
-  for (OpenLine& line : open) finish(line, columns, kernels, lines);
+  for (const OpenLine& line : open) finish(line, kernels, lines);
 }
 
 template void find_lines_centroid<std::uint8_t>(ImageView8, const DerivativeKernels&, const RidgeLimits&,

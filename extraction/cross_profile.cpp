@@ -48,7 +48,7 @@ Flank measure_flank(const PixelLine<T>& line, double centre, int start, int dire
 template <class T>
 CrossProfile measure_profile(PixelLine<T> line, double centre, int reach) {
   CrossProfile p;
-  const int c = std::clamp(static_cast<int>(std::lround(centre)), 0, line.count - 1);
+  const int c = std::clamp(static_cast<int>(centre + 0.5), 0, line.count - 1);
   const double before = line[std::max(c - 1, 0)], at = line[c], after = line[std::min(c + 1, line.count - 1)];
   p.top = 0.25 * (before + 2 * at + after);
   p.brightest = std::max({before, at, after});

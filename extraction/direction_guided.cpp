@@ -33,6 +33,8 @@ void collect_seeds(ImageView<T> image, double sigma, const RidgeLimits& limits, 
   w.zeros.assign(static_cast<std::size_t>(image.width), T{});
   w.candidate_masks.resize(static_cast<std::size_t>((image.width + 63) / 64));
   const int step = seed_row_step(sigma);
+  // Of a wide stripe every second pixel of the row is enough, too.
+  const std::uint64_t columns = step >= 2 ? 0x5555555555555555ULL : ~0ULL;
   for (int y = step / 2; y < image.height; y += step) {
     const ScanRow<T> row{image.row(y), y >= rule.reach ? image.row(y - rule.reach) : w.zeros.data(),
                          y + rule.reach < image.height ? image.row(y + rule.reach) : w.zeros.data()};
@@ -45,7 +47,7 @@ void collect_seeds(ImageView<T> image, double sigma, const RidgeLimits& limits, 
     for (int x = 0; x < std::min(rule.reach, image.width); ++x) add(x);
     if (mark_candidates(row, image.width, rule, w.candidate_masks.data()))
       for (std::size_t word = 0; word < w.candidate_masks.size(); ++word)
-        for (std::uint64_t bits = w.candidate_masks[word]; bits != 0; bits &= bits - 1)
+        for (std::uint64_t bits = w.candidate_masks[word] & columns; bits != 0; bits &= bits - 1)
           add(static_cast<int>(word * 64) + std::countr_zero(bits));
     for (int x = std::max(image.width - rule.reach, rule.reach); x < image.width; ++x) add(x);
   }

@@ -107,8 +107,8 @@ std::optional<RidgePlace> RidgeFinder<T>::first_point(int seed_x, int seed_y) co
         std::clamp(ridge_offset(d, axes.normal_x, axes.normal_y, axes.across), -kernels.sigma, kernels.sigma);
     x = to_phase(x).value() + t * axes.normal_x;
     y = to_phase(y).value() + t * axes.normal_y;
-    if (std::hypot(x - seed_x, y - seed_y) > longest || x < 0 || y < 0 || x > image.width - 1 ||
-        y > image.height - 1)
+    if ((x - seed_x) * (x - seed_x) + (y - seed_y) * (y - seed_y) > longest * longest || x < 0 || y < 0 ||
+        x > image.width - 1 || y > image.height - 1)
       return std::nullopt;
     if (std::abs(t) > 0.5) continue;
     RidgeSearch search;

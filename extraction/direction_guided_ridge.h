@@ -16,6 +16,9 @@ namespace lightstripe {
 
 struct RidgeLimits;
 
+/// Nearest whole number (a pixel's column or row) of a coordinate of at least -1e6; faster than lround.
+inline int nearest_pixel(double coordinate) { return static_cast<int>(coordinate + 1000000.5) - 1000000; }
+
 /// Unit vector along the line in the sense of following.
 struct Direction {
   double x = 1, y = 0;

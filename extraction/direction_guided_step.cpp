@@ -41,11 +41,9 @@ class Follower {
   void mark(const RidgePlace& p) {
     const double half = 2.1 * finder_.kernels.sigma;
     if (p.direction.column_wise())
-      mask_.mark_column(static_cast<int>(std::lround(p.x)), p.y, half / std::abs(p.direction.x),
-                        labels_.current);
+      mask_.mark_column(nearest_pixel(p.x), p.y, half / std::abs(p.direction.x), labels_.current);
     else
-      mask_.mark_row(static_cast<int>(std::lround(p.y)), p.x, half / std::abs(p.direction.y),
-                     labels_.current);
+      mask_.mark_row(nearest_pixel(p.y), p.x, half / std::abs(p.direction.y), labels_.current);
   }
 
  private:
@@ -79,10 +77,10 @@ RidgeSearch Follower<T>::predict(const Tip& tip, const Direction& direction, int
   s.direction = direction;
   s.least_strength = std::max(limits_.follow_strength, limits_.relative_strength * tip.recent_strength);
   if (direction.column_wise()) {
-    s.x = std::round(tip.x) + (direction.x > 0 ? steps : -steps);
+    s.x = nearest_pixel(tip.x) + (direction.x > 0 ? steps : -steps);
     s.y = tip.y + direction.y / direction.x * (s.x - tip.x) + aside;
   } else {
-    s.y = std::round(tip.y) + (direction.y > 0 ? steps : -steps);
+    s.y = nearest_pixel(tip.y) + (direction.y > 0 ? steps : -steps);
     s.x = tip.x + direction.x / direction.y * (s.y - tip.y) + aside;
   }
   return s;
@@ -91,7 +89,7 @@ RidgeSearch Follower<T>::predict(const Tip& tip, const Direction& direction, int
 /// Inside the image, and nothing but the recent part of this line there.
 template <class T>
 bool Follower<T>::is_free(double x, double y) const {
-  const auto column = static_cast<int>(std::lround(x)), row = static_cast<int>(std::lround(y));
+  const auto column = nearest_pixel(x), row = nearest_pixel(y);
   if (!finder_.image.contains(column, row)) return false;
   const std::uint16_t label = mask_(column, row);
   return label == ExclusionMask::kFree || label == ExclusionMask::kDead || label == labels_.current ||
@@ -144,7 +142,7 @@ template <class T>
 bool Follower<T>::meets_line(const Tip& tip) const {
   for (int k = 1; k <= 2 + static_cast<int>(2 * finder_.kernels.sigma); ++k) {
     const RidgeSearch ahead = predict(tip, tip.direction, k, 0);
-    const auto x = static_cast<int>(std::lround(ahead.x)), y = static_cast<int>(std::lround(ahead.y));
+    const auto x = nearest_pixel(ahead.x), y = nearest_pixel(ahead.y);
     if (finder_.image.contains(x, y) && !is_free(x, y)) return true;
   }
   return false;
@@ -265,7 +263,8 @@ bool Follower<T>::run(const RidgePlace& start, std::vector<StripePoint>& out) {
     // Curling up on a spot instead of going on.
     if (steps > kWindow) {
       const StripePoint& past = out[out.size() - 1 - kWindow];
-      if (std::hypot(past.x - tip.x, past.y - tip.y) < 0.4 * kWindow) return false;
+      const double dx = past.x - tip.x, dy = past.y - tip.y;
+      if (dx * dx + dy * dy < 0.16 * kWindow * kWindow) return false;
     }
     if (steps < next_label) continue;
     next_label += label_length();

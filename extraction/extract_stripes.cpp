@@ -11,6 +11,7 @@
 
 #include "core/error.h"
 #include "extraction/centroid.h"
+#include "extraction/curvature_bias.h"
 #include "extraction/line_measure.h"
 #include "extraction/noise.h"
 #include "extraction/steger.h"
@@ -78,7 +79,7 @@ struct ImageFacts {
 /// Statistics need some 100 000 pixels, whatever the image's size; the brightest pixel is looked for in all.
 template <class T>
 ImageFacts look_at(ImageView<T> image) {
-  constexpr double kEnoughPixels = 90000;
+  constexpr double kEnoughPixels = 40000;
   const double pixels = static_cast<double>(image.width) * image.height;
   const int row_step =
       std::clamp(static_cast<int>(pixels / kEnoughPixels), 1, std::max(1, image.height / 32));
@@ -238,6 +239,8 @@ void extract(ImageView<T> image, const ExtractionOptions& options, ExtractionWor
   if (!options.sigma && !options.stripe_width) refine_sigma(image, options, facts, w, result);
   smooth_measures(w.kernels, w.lines, w.scratch);
   predict_errors(w.kernels, facts.noise, w.lines);
+  if (options.curvature_correction && options.method != ExtractionMethod::kCentroid)
+    correct_curvature_bias(w.kernels, w.lines, w.scratch, w.values);
   hand_over(w, options.max_lines, result);
 }
 

@@ -33,6 +33,7 @@ struct ExtractionOptions {
   std::optional<double> alpha;         ///< weight of T_min in T_l, [0, 1]; not given: from entropy and peaks
   double beta = 0;                     ///< weight of T_max in T_h, [0, 1]
   int max_lines = 0;                   ///< only the longest lines; 0 = all
+  bool curvature_correction = true;    ///< undo the kernels' drift to the inner side of bends
   LineTestOptions lines;               ///< what a line has to be like
 };
 
@@ -45,6 +46,7 @@ void visit_fields(V&& v, ExtractionOptions& o) {
   v("alpha", o.alpha, "weight of the background's grey level in the low threshold; default: automatic");
   v("beta", o.beta, "weight of the brightest grey level in the high threshold");
   v("max_lines", o.max_lines, "only the longest lines; 0 = all");
+  v("curvature_correction", o.curvature_correction, "undo the kernels' drift to the inner side of bends");
   v("lines", o.lines);
 }
 

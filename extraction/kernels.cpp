@@ -130,7 +130,10 @@ DerivativeKernels make_derivative_kernels(double sigma) {
 }
 
 PhasedPosition to_phase(double coordinate) {
-  const auto steps = static_cast<int>(std::floor(coordinate * DerivativeKernels::kPhases + 0.5));
+  // floor() without its call, which plain x86-64 has no instruction for.
+  const double scaled = coordinate * DerivativeKernels::kPhases + 0.5;
+  int steps = static_cast<int>(scaled);
+  if (steps > scaled) --steps;
   constexpr int kMask = DerivativeKernels::kPhases - 1;
   return {(steps - (steps & kMask)) / DerivativeKernels::kPhases, steps & kMask};
 }

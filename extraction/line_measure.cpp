@@ -19,10 +19,10 @@ CrossProfile profile_at(ImageView<T> image, const StripePoint& p, double full_wi
   const double cosine = column ? std::abs(p.normal_y) : std::abs(p.normal_x);
   const int reach = 2 + static_cast<int>(std::ceil(1.25 * full_width / cosine));
   if (column) {
-    const int x = std::clamp(static_cast<int>(std::lround(p.x)), 0, image.width - 1);
+    const int x = std::clamp(static_cast<int>(p.x + 0.5), 0, image.width - 1);
     return measure_profile(column_line(image, x), p.y, reach);
   }
-  const int y = std::clamp(static_cast<int>(std::lround(p.y)), 0, image.height - 1);
+  const int y = std::clamp(static_cast<int>(p.y + 0.5), 0, image.height - 1);
   return measure_profile(row_line(image, y), p.x, reach);
 }
 
@@ -60,24 +60,40 @@ template void measure_points<std::uint8_t>(ImageView8, const DerivativeKernels&,
 template void measure_points<std::uint16_t>(ImageView16, const DerivativeKernels&, LineSet&,
                                             std::vector<float>&);
 
+namespace {
+
+/// Sums over the measured points of a window that slides along a line.
+struct SlidingMeans {
+  double foot = 0, half = 0, intensity = 0;
+  int used = 0;
+
+  void add(const StripePoint& p, float half_width, int sign) {
+    if ((p.flags & kStripeBridged) != 0) return;
+    foot += sign * p.width;
+    half += sign * static_cast<double>(half_width);
+    intensity += sign * static_cast<double>(p.intensity);
+    used += sign;
+  }
+};
+
+}  // namespace
+
 void smooth_measures(const DerivativeKernels& kernels, LineSet& lines, std::vector<StripePoint>& scratch) {
   const auto reach = static_cast<std::size_t>(std::lround(1.5 * kernels.sigma));
-  scratch.assign(lines.points.begin(), lines.points.end());
-  for (const LineRange& r : lines.lines)
-    for (std::size_t i = r.begin; i < r.end; ++i) {
-      double foot = 0, half = 0, intensity = 0;
-      int used = 0;
-      for (std::size_t k = std::max(r.begin + reach, i) - reach; k < std::min(r.end, i + reach + 1); ++k) {
-        if ((scratch[k].flags & kStripeBridged) != 0) continue;
-        foot += scratch[k].width;
-        half += static_cast<double>(lines.half_level_widths[k]);
-        intensity += static_cast<double>(scratch[k].intensity);
-        ++used;
-      }
-      if (used == 0) continue;
-      lines.points[i].width = bar_width(foot / used, half / used);
-      lines.points[i].intensity = static_cast<float>(intensity / used);
+  for (const LineRange& r : lines.lines) {
+    scratch.assign(lines.points.begin() + static_cast<std::ptrdiff_t>(r.begin),
+                   lines.points.begin() + static_cast<std::ptrdiff_t>(r.end));
+    const float* half = lines.half_level_widths.data() + r.begin;
+    SlidingMeans means;
+    std::size_t first = 0, end = 0;
+    for (std::size_t i = 0; i < scratch.size(); ++i) {
+      for (; end < std::min(scratch.size(), i + reach + 1); ++end) means.add(scratch[end], half[end], +1);
+      for (; first + reach < i; ++first) means.add(scratch[first], half[first], -1);
+      if (means.used == 0) continue;
+      lines.points[r.begin + i].width = bar_width(means.foot / means.used, means.half / means.used);
+      lines.points[r.begin + i].intensity = static_cast<float>(means.intensity / means.used);
     }
+  }
 }
 
 void predict_errors(const DerivativeKernels& kernels, double noise, LineSet& lines) {

@@ -3,6 +3,7 @@
 #include "extraction/stripe_width.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -15,8 +16,7 @@ constexpr int kReach = 28;  // px: stripes up to about this half width are found
 
 struct WidthSample {
   double width = 0;
-  double contrast = 0;
-  double weight() const { return std::pow(contrast / width, 3); }
+  double weight = 0;
 };
 
 /// Grey level at the centre, and from it in each direction the distance to the width level above the lowest
@@ -74,19 +74,60 @@ void sample_maxima(ImageView<T> image, bool along_row, int position, double leve
     i = end;
     if (!top) continue;
     const auto across = bar_profile(line, middle, grey);
-    if (!across || across->contrast() < contrast) continue;
+    // Noise makes small maxima on the flanks of a wide stripe: small against what they stand on.
+    if (!across || across->contrast() < std::max(contrast, 0.35 * (grey - level))) continue;
     // A line at angle a is cut to width / cos a by the one and width / sin a by the other.
-    double width = across->width();
+    double width = across->width(), longer = width;
     const PixelLine<T> other = along_row ? column_line(image, middle) : row_line(image, middle);
     const auto along = bar_profile(other, position, grey);
     if (along && along->contrast() > 0.3 * across->contrast()) {
       // The line's grey value varies along it: what looks like a flank there has to be as steep as this one
       // is.
       const double v = along->width();
-      if (v < 3.0 * width) width = width * v / std::hypot(width, v);
+      if (v < 3.0 * width) {
+        longer = std::max(width, v);
+        width = width * v / std::hypot(width, v);
+      }
     }
-    samples.push_back({width, across->contrast()});
+    samples.push_back({width, std::pow(across->contrast() / longer, 2.5)});
   }
+}
+
+/// The peak of the samples' distribution over the logarithm of the width, and the mean around it. Each sample
+/// counts by its sharpness (contrast / width) to the power 2.5: squares of a board may be as bright as
+/// stripes and many more, but they are wider and of all widths.
+double commonest_width(const std::vector<WidthSample>& samples) {
+  constexpr int kBins = 52;
+  constexpr double kPerBin = 0.09;  // of the natural logarithm; the last bin lies at 108 px
+  std::array<double, kBins + 2> weights{};
+  const auto bin_of = [](double width) {
+    return 1 +
+           std::clamp(static_cast<int>(std::lround(std::log(std::max(width, 1.0)) / kPerBin)), 0, kBins - 1);
+  };
+  std::array<std::size_t, kBins + 2> counts{};
+  for (const WidthSample& s : samples) {
+    weights[static_cast<std::size_t>(bin_of(s.width))] += s.weight;
+    ++counts[static_cast<std::size_t>(bin_of(s.width))];
+  }
+  // A few very sharp samples (the tips of stripes, hot pixels) are no peak.
+  const std::size_t least = std::min<std::size_t>(6, samples.size()) + samples.size() / 100;
+  int peak = 1;
+  double highest = -1;
+  for (int bin = 1; bin <= kBins; ++bin) {
+    const auto b = static_cast<std::size_t>(bin);
+    const double smooth = weights[b - 1] + 2 * weights[b] + weights[b + 1];
+    if (smooth <= highest || counts[b - 1] + counts[b] + counts[b + 1] < std::min(least, samples.size() / 3))
+      continue;
+    highest = smooth;
+    peak = bin;
+  }
+  double sum = 0, total = 0;
+  for (const WidthSample& s : samples) {
+    if (std::abs(bin_of(s.width) - peak) > 2) continue;
+    sum += s.weight * s.width;
+    total += s.weight;
+  }
+  return sum / total;
 }
 
 }  // namespace
@@ -100,18 +141,7 @@ std::optional<double> estimate_stripe_width(ImageView<T> image, double level, do
   for (int x = column_step / 2; x < image.width; x += column_step)
     sample_maxima(image, false, x, level, contrast, samples);
   if (samples.empty()) return std::nullopt;
-  // The median, each sample weighted by its sharpness cubed: stripes are the sharpest bars of an image,
-  // squares of a board may be as bright and many more, but are wider.
-  std::sort(samples.begin(), samples.end(),
-            [](const WidthSample& a, const WidthSample& b) { return a.width < b.width; });
-  double total = 0;
-  for (const WidthSample& s : samples) total += s.weight();
-  double sum = 0;
-  for (const WidthSample& s : samples) {
-    sum += s.weight();
-    if (sum >= 0.5 * total) return s.width;
-  }
-  return samples.back().width;
+  return commonest_width(samples);
 }
 
 template std::optional<double> estimate_stripe_width<std::uint8_t>(ImageView8, double, double);

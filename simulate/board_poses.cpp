@@ -21,10 +21,10 @@ constexpr double kGoldenAngle = 137.50776405003785 * kDegree;  // spreads the ti
 constexpr int kAttempts = 20000;
 constexpr std::uint64_t kPoseStream = 0x706f7365;  // apart from the images' noise
 // Limits within which detectors and the stripe's extraction work well.
-constexpr double kMaxViewAngle_deg = 58;   // line of sight against the board's normal
-constexpr double kMaxIncidence_deg = 68;   // light against the normal
-constexpr double kMinSheetAngle_deg = 22;  // board against the laser sheet
-constexpr double kMinStripe = 0.5;         // of the pattern's shorter side
+constexpr double kMaxViewAngleDeg = 58;   // line of sight against the board's normal
+constexpr double kMaxIncidenceDeg = 68;   // light against the normal
+constexpr double kMinSheetAngleDeg = 22;  // board against the laser sheet
+constexpr double kMinStripe = 0.5;        // of the pattern's shorter side
 
 Vector3d outwards(const Rigid3& world_from_board) { return -(world_from_board.rotation * Vector3d::UnitZ()); }
 
@@ -64,7 +64,7 @@ bool whole_in_view(const View& view, const Target& target, const Rigid3& pose, d
 
 bool seen_well(const View& view, const Target& target, const Rigid3& pose) {
   const Vector3d sight = (view.eye() - pose * middle_of(target)).normalized();
-  return outwards(pose).dot(sight) > std::cos(kMaxViewAngle_deg * kDegree);
+  return outwards(pose).dot(sight) > std::cos(kMaxViewAngleDeg * kDegree);
 }
 
 /// Where the sheet cuts the pattern's rim, the two points' distance, mm.
@@ -82,8 +82,8 @@ double stripe_length(const SimulatedSensor& sensor, const Target& target, const 
 bool lit_well(const SimulatedSensor& sensor, const Target& target, const Rigid3& pose) {
   const Vector3d normal = outwards(pose), to_source = (sensor.source - pose * middle_of(target)).normalized();
   const double shorter = std::min((target.columns + 1) * target.pitch_x, (target.rows + 1) * target.pitch_y);
-  return normal.dot(to_source) > std::cos(kMaxIncidence_deg * kDegree) &&
-         std::abs(normal.dot(sensor.sheet.normal)) < std::cos(kMinSheetAngle_deg * kDegree) &&
+  return normal.dot(to_source) > std::cos(kMaxIncidenceDeg * kDegree) &&
+         std::abs(normal.dot(sensor.sheet.normal)) < std::cos(kMinSheetAngleDeg * kDegree) &&
          stripe_length(sensor, target, pose) > kMinStripe * shorter;
 }
 
@@ -118,7 +118,7 @@ bool usable(const Scene& scene, const std::vector<SimulatedSensor>& sensors, con
             bool cut_off) {
   const Target target = target_of(scene.boards);
   for (const SimulatedSensor& sensor : sensors) {
-    const View view{&sensor, Vector3d::Zero(), 0, false};
+    const View view{&sensor, Vector3d::Zero(), 0, 0};
     const bool framed = cut_off && &sensor == &sensors.front()
                             ? cut_by_image(view, target, pose)
                             : whole_in_view(view, target, pose, scene.boards.margin_px);
@@ -129,7 +129,7 @@ bool usable(const Scene& scene, const std::vector<SimulatedSensor>& sensors, con
 
 bool usable_in_motion(const Scene& scene, const SimulatedSensor& sensor, const Rigid3& pose) {
   for (int i = 0; i < scene.motion.positions; ++i) {
-    const View view{&sensor, shift_at(scene, i * scene.motion.step_mm), 0, false};
+    const View view{&sensor, shift_at(scene, i * scene.motion.step_mm), 0, 0};
     const Target target = target_of(scene.boards);
     if (!whole_in_view(view, target, pose, scene.boards.margin_px) || !seen_well(view, target, pose))
       return false;
@@ -184,7 +184,7 @@ Rigid3 draw_motion_board(const Scene& scene, const std::vector<SimulatedSensor>&
   BoardPlan plan = scene.boards;
   plan.center += 0.5 * shift_at(scene, (scene.motion.positions - 1) * scene.motion.step_mm);
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
-    const Rigid3 pose = draw(plan, {&sensor, 1}, attempt * kGoldenAngle, random);
+    Rigid3 pose = draw(plan, {&sensor, 1}, attempt * kGoldenAngle, random);
     if (usable_in_motion(scene, sensor, pose)) return pose;
   }
   throw Error("motion", "no board's pose found that stays in view over the whole travel",

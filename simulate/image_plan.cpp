@@ -26,14 +26,15 @@ World with_board(const BoardPlan& boards, const Rigid3& pose) {
 void plan_boards(const Scene& scene, ImagePlan& plan) {
   plan.board_poses = draw_board_poses(scene, plan.sensors);
   const bool pair = scene.boards.images == BoardImages::kPair;
-  const View first{
-      nullptr, {0, 0, 0}, pair ? scene.imaging.board_ambient : scene.imaging.single_ambient, !pair};
-  const View lit{nullptr, {0, 0, 0}, scene.imaging.laser_ambient, true};
+  const Imaging& light = scene.imaging;
+  const View unlit{nullptr, {0, 0, 0}, light.board_ambient, 0},
+      lit{nullptr, {0, 0, 0}, light.laser_ambient, 1};
+  const View both{nullptr, {0, 0, 0}, light.single_ambient, light.single_laser};
   for (int i = 0; i < scene.boards.count; ++i) {
     plan.worlds.push_back(with_board(scene.boards, plan.board_poses[static_cast<std::size_t>(i)]));
     for (std::size_t s = 0; s < plan.sensors.size(); ++s) {
       const std::string folder = "calib/" + plan.sensors[s].name;
-      add_image(plan, folder + "/board/" + board_file(i), s, first, -1);
+      add_image(plan, folder + "/board/" + board_file(i), s, pair ? unlit : both, -1);
       if (pair) add_image(plan, folder + "/laser/" + board_file(i), s, lit, -1);
     }
   }
@@ -45,7 +46,7 @@ void plan_motion(const Scene& scene, ImagePlan& plan) {
   plan.worlds.push_back(with_board(scene.boards, plan.motion_board.front()));
   const std::size_t sensor = motion_sensor(scene);
   for (int i = 0; i < scene.motion.positions; ++i) {
-    const View view{nullptr, shift_at(scene, i * scene.motion.step_mm), scene.imaging.board_ambient, false};
+    const View view{nullptr, shift_at(scene, i * scene.motion.step_mm), scene.imaging.board_ambient, 0};
     add_image(plan, "calib/" + plan.sensors[sensor].name + "/travel/" + board_file(i), sensor, view, -1);
   }
 }
@@ -54,7 +55,7 @@ void plan_scan(const Scene& scene, ImagePlan& plan) {
   plan.still_scan = same_in_all_frames(scene);
   for (int i = 0; i < scene.scan.frames; ++i) {
     if (i == 0 || !plan.still_scan) plan.worlds.push_back(scan_world(scene, plan.nominal_rail, i));
-    const View view{nullptr, shift_at(scene, travel_of(scene, i)), scene.imaging.scan_ambient, true};
+    const View view{nullptr, shift_at(scene, travel_of(scene, i)), scene.imaging.scan_ambient, 1};
     for (std::size_t s = 0; s < plan.sensors.size(); ++s)
       add_image(plan, "scan/" + plan.sensors[s].name + "/" + frame_file(i), s, view, i);
   }

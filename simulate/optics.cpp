@@ -110,7 +110,7 @@ Vector3d RayGrid::between(double x, double y) const {
 
 std::optional<Vector2d> pixel_of(const View& view, const Vector3d& p_world) {
   const Camera& camera = view.sensor->camera;
-  const std::optional<Vector2d> pixel =
+  std::optional<Vector2d> pixel =
       project(camera, view.sensor->world_from_camera.inverse() * (p_world - view.shift));
   if (!pixel || pixel->x() < 0 || pixel->y() < 0 || pixel->x() > camera.width - 1 ||
       pixel->y() > camera.height - 1)

@@ -59,7 +59,7 @@ struct View {
   const SimulatedSensor* sensor = nullptr;
   Eigen::Vector3d shift = Eigen::Vector3d::Zero();  ///< mm, world
   double ambient = 0;                               ///< grey level of white that faces the lamp
-  bool laser_on = false;
+  double laser_power = 0;                           ///< share of the laser's brightness; 0 = off
 
   Eigen::Vector3d eye() const { return sensor->world_from_camera.translation + shift; }
 };

@@ -125,8 +125,8 @@ double laser_level(const World& world, const View& view, const Imaging& imaging,
   const double fan = fan_profile(angle, sensor.laser.fan_deg / 2 * std::numbers::pi / 180);
   const double level = reflected(hit, to_source / distance, (view.eye() - p_world).normalized());
   if (fan == 0 || level == 0 || blocked(world, sensor.source + view.shift, p_world)) return 0;
-  return imaging.exposure * sensor.laser.brightness * fan * sensor.reference_mm / distance *
-         std::exp(-0.5 * off * off) * level;
+  return imaging.exposure * view.laser_power * sensor.laser.brightness * fan * sensor.reference_mm /
+         distance * std::exp(-0.5 * off * off) * level;
 }
 
 double shade(const World& world, const View& view, const Imaging& imaging, const Ray& ray) {
@@ -135,7 +135,7 @@ double shade(const World& world, const View& view, const Imaging& imaging, const
   if (!hit) return imaging.dark_level;
   const double lamp = reflected(*hit, imaging.light.normalized(), -ray.direction.normalized());
   const double ambient = view.ambient * (kAmbientFloor * hit->material.albedo + (1 - kAmbientFloor) * lamp);
-  const double laser = view.laser_on ? laser_level(world, view, imaging, ray.at(hit->s), *hit) : 0;
+  const double laser = view.laser_power > 0 ? laser_level(world, view, imaging, ray.at(hit->s), *hit) : 0;
   return imaging.dark_level + imaging.exposure * ambient + laser;
 }
 

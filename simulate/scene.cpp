@@ -76,6 +76,7 @@ void check_imaging(const Imaging& o, const Rules& rules) {
   for (const double level :
        {o.board_ambient, o.laser_ambient, o.single_ambient, o.scan_ambient, o.dark_level})
     rules.require(level >= 0, "imaging", "levels must not be negative");
+  rules.require(o.single_laser >= 0, "imaging.single_laser", "must not be negative");
   rules.require(o.light.norm() > 0, "imaging.light", "must not be zero");
   rules.require(o.exposure > 0, "imaging.exposure", "must be positive");
   rules.require(o.blur_sigma_px >= 0 && o.blur_sigma_px <= 20, "imaging.blur_sigma_px", "0 to 20");
@@ -149,6 +150,8 @@ void Scene::check(const std::string& origin) const {
 Scene read_scene(const std::filesystem::path& path) {
   Scene scene;
   read_yaml(path, scene);
+  const bool outline_file = scene.rail.profile.ends_with(".yaml");
+  if (outline_file) scene.rail.profile = (path.parent_path() / scene.rail.profile).string();
   scene.check(path.string());
   return scene;
 }

@@ -142,7 +142,8 @@ void visit_fields(V&& v, Scene& o) {
   v("ground", o.ground);
 }
 
-/// Reads scene.yaml; keys left out keep their defaults. Errors name file, key and rule.
+/// Reads scene.yaml; keys left out keep their defaults; an outline file (rail.profile) is relative to the
+/// scene's folder. Errors name file, key and rule.
 Scene read_scene(const std::filesystem::path& path);
 
 }  // namespace lightstripe

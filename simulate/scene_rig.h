@@ -67,7 +67,8 @@ std::vector<SceneSensor> two_sensor_rail_rig();
 struct Imaging {
   double board_ambient = 215;             ///< board images, laser off
   double laser_ambient = 45;              ///< board images, laser on (darkened so that the stripe stands out)
-  double single_ambient = 95;             ///< board images that show board and stripe at once
+  double single_ambient = 150;            ///< board images that show board and stripe at once
+  double single_laser = 0.45;             ///< the laser's share of its power in those images
   double scan_ambient = 30;               ///< frames of the scan
   double dark_level = 5;                  ///< what a pixel without light reads
   Eigen::Vector3d light{-0.6, 0.1, 0.8};  ///< towards the soft lamp
@@ -83,6 +84,7 @@ void visit_fields(V&& v, Imaging& o) {
   v("board_ambient", o.board_ambient, "grey level of white, board images without laser");
   v("laser_ambient", o.laser_ambient, "the same, board images with laser");
   v("single_ambient", o.single_ambient, "the same, board and stripe in one image");
+  v("single_laser", o.single_laser, "share of the laser's power in those");
   v("scan_ambient", o.scan_ambient, "the same, frames of the scan");
   v("dark_level", o.dark_level, "what a pixel without light reads");
   v("light", o.light, "direction towards the soft lamp");

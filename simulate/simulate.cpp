@@ -69,7 +69,7 @@ std::string make_image(const Studio& studio, const PlannedImage& image, const st
     blobs = draw_blobs(scene.reflections, light.width, light.height, Random(seed, stream ^ kBlobStream));
   add_blobs(light, blobs, scene.reflections);
   write_image(folder / image.file, expose(light, scene.imaging, seed, stream));
-  if (!image.view.laser_on) return "";
+  if (image.view.laser_power == 0) return "";
   const auto points = trace_stripe(studio.plan.worlds[image.world], image.view, scene.imaging);
   return stripe_rows(image.file, image.view.sensor->name, image.frame, points, studio.rig_from_world, blobs,
                      scene.reflections);

@@ -18,7 +18,7 @@ Outline half_of(const Outline& closed) {
   Outline half = reversed(closed);
   half.segments.resize(half.segments.size() / 2);
   const auto& s = half.segments;
-  const bool head = s.size() >= kHeadSegments && std::abs(s[kCrown].from.x()) < kOutlineJoint_mm &&
+  const bool head = s.size() >= kHeadSegments && std::abs(s[kCrown].from.x()) < kOutlineJointMm &&
                     !s[kCrown].straight() && !s[kShoulder].straight() && !s[kCorner].straight() &&
                     s[kFace].straight();
   if (!head)
@@ -48,7 +48,7 @@ void join_face_below(Outline& half, const Vector2d& face_top, const Vector2d& do
   const Outline underside{{s[kLowerCorner], s[kFishing]}};
   const std::optional<OutlineHit> hit = first_hit(underside, face_top, down, 0);
   // A face moved by less than the table's rounding may miss the corner that it is tangent to.
-  if (!hit && (s[kFace].to - s[kLowerCorner].from).norm() < kOutlineJoint_mm) {
+  if (!hit && (s[kFace].to - s[kLowerCorner].from).norm() < kOutlineJointMm) {
     s[kFace].to = s[kLowerCorner].from;
     return;
   }

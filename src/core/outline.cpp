@@ -14,7 +14,7 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kArcEnd_mm = 2e-5;  // tabulated ends lie that far off their arc
+constexpr double kArcEndMm = 2e-5;  // tabulated ends lie that far off their arc
 
 double cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
@@ -37,7 +37,7 @@ Vector2d radial_at(const OutlineSegment& arc, double t) {
 /// Whether a point of the arc's circle lies on the arc: a counterclockwise arc lies right of its chord.
 bool on_arc_side(const OutlineSegment& arc, const Vector2d& point) {
   const Vector2d chord = arc.to - arc.from;
-  const double side = cross(chord, point - arc.from), slack = kArcEnd_mm * chord.norm();
+  const double side = cross(chord, point - arc.from), slack = kArcEndMm * chord.norm();
   return arc.counterclockwise ? side <= slack : side >= -slack;
 }
 
@@ -121,7 +121,7 @@ OutlineSegment arc_segment(const Vector2d& from, const Vector2d& to, const Vecto
 }
 
 bool Outline::closed() const {
-  return !segments.empty() && (segments.front().from - segments.back().to).norm() < kOutlineJoint_mm;
+  return !segments.empty() && (segments.front().from - segments.back().to).norm() < kOutlineJointMm;
 }
 
 double length(const OutlineSegment& segment) {

@@ -34,7 +34,7 @@ struct Outline {
 };
 
 /// Largest gap between two segments that still counts as joined, mm (tabulated outlines are rounded to 1e-5).
-inline constexpr double kOutlineJoint_mm = 1e-4;
+inline constexpr double kOutlineJointMm = 1e-4;
 
 /// The chain backwards.
 Outline reversed(const Outline& outline);

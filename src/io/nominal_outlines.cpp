@@ -44,7 +44,7 @@ void visit_fields(V&& v, OutlineFields& o) {
 
 void check_arc(const OutlineSegment& arc, const std::string& subject) {
   const double difference = std::abs((arc.from - arc.center).norm() - (arc.to - arc.center).norm());
-  if (difference > kOutlineJoint_mm)
+  if (difference > kOutlineJointMm)
     throw Error(
         subject,
         fmt::format("the arc's ends differ by {:.3g} mm in their distance from its centre", difference),
@@ -66,7 +66,7 @@ Outline outline_of(const OutlineFields& fields, const std::string& origin) {
     from = segment.to;
   }
   if (fields.mirrored &&
-      (std::abs(fields.start.x()) > kOutlineJoint_mm || std::abs(from.x()) > kOutlineJoint_mm))
+      (std::abs(fields.start.x()) > kOutlineJointMm || std::abs(from.x()) > kOutlineJointMm))
     throw Error(origin + ": mirrored", "the half does not begin and end on the axis u = 0",
                 "correct `start` or the last `to`");
   const Outline whole = fields.mirrored ? mirrored(chain) : chain;

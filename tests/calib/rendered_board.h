@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The lightstripe authors
 // SPDX-License-Identifier: Apache-2.0
-// A small renderer of one checkerboard for the tests of calib: exact camera model, area sampling, lens blur, noise.
+// A small renderer of one checkerboard for the tests of calib: exact camera model, area sampling, lens blur,
+// noise.
 #pragma once
 
 #include <algorithm>
@@ -23,10 +24,10 @@ struct BoardLook {
   double blur_px = 0.8;                            ///< lens, standard deviation
   double noise = 1.5;                              ///< grey levels
   double ambient = 1;                              ///< factor on the board's brightness
-  double laser_peak = 0;                           ///< added brightness per albedo 1 at the stripe's middle; 0 = off
-  double laser_sigma_mm = 0.3;                     ///< of the light sheet
-  double laser_dark_albedo = 0.1;                  ///< what the black squares reflect of the laser's light
-  bool first_square_dark = true;                   ///< the square between corners 0, 1 and the next row
+  double laser_peak = 0;           ///< added brightness per albedo 1 at the stripe's middle; 0 = off
+  double laser_sigma_mm = 0.3;     ///< of the light sheet
+  double laser_dark_albedo = 0.1;  ///< what the black squares reflect of the laser's light
+  bool first_square_dark = true;   ///< the square between corners 0, 1 and the next row
 };
 
 namespace detail {
@@ -37,13 +38,13 @@ inline int square_at(const Target& target, double x, double y, const BoardLook& 
   if (i >= -1 && i < target.columns && j >= -1 && j < target.rows)
     return ((static_cast<int>(i + j + 4) % 2 == 0) == look.first_square_dark) ? 1 : 2;
   const double m = look.margin_mm;
-  const bool rim = x > -target.pitch_x - m && x < target.columns * target.pitch_x + m && y > -target.pitch_y - m &&
-                   y < target.rows * target.pitch_y + m;
+  const bool rim = x > -target.pitch_x - m && x < target.columns * target.pitch_x + m &&
+                   y > -target.pitch_y - m && y < target.rows * target.pitch_y + m;
   return rim ? 2 : 0;
 }
 
-inline double brightness(const Target& target, const Rigid3& cam_from_board, const Plane* laser, const BoardLook& look,
-                         double x, double y) {
+inline double brightness(const Target& target, const Rigid3& cam_from_board, const Plane* laser,
+                         const BoardLook& look, double x, double y) {
   const int square = square_at(target, x, y, look);
   if (square == 0) return look.background * look.ambient;
   double value = look.ambient * (square == 1 ? look.dark : look.light);
@@ -52,6 +53,17 @@ inline double brightness(const Target& target, const Rigid3& cam_from_board, con
     value += look.laser_peak * (square == 1 ? look.laser_dark_albedo : 1.0) * std::exp(-0.5 * d * d);
   }
   return value;
+}
+
+/// Whether the pixel, whose left side's middle is `left`, shows one square only.
+inline bool uniform(const Target& target, const BoardLook& look, const Eigen::Vector2d& left,
+                    const Eigen::Vector2d& dx, const Eigen::Vector2d& dy) {
+  const auto at = [&](double i, double j) {
+    const Eigen::Vector2d p = left + i * dx + j * dy;
+    return square_at(target, p.x(), p.y(), look);
+  };
+  const int first = at(0, -0.5);
+  return at(1, -0.5) == first && at(0, 0.5) == first && at(1, 0.5) == first && at(0.5, 0) == first;
 }
 
 }  // namespace detail
@@ -73,14 +85,16 @@ inline Image8 render_board(const Camera& camera, const Target& target, const Rig
     for (int x = 0; x < camera.width; ++x) {
       const Eigen::Vector2d right = on_board({x + 0.5, y});
       const Eigen::Vector2d dx = right - left, dy = low - left;
+      const bool edge = laser || !detail::uniform(target, look, left, dx, dy);
+      const int sub = edge ? kSub : 1;
       double sum = 0;
-      for (int j = 0; j < kSub; ++j) {
-        for (int i = 0; i < kSub; ++i) {
-          const Eigen::Vector2d at = left + ((i + 0.5) / kSub) * dx + ((j + 0.5) / kSub - 0.5) * dy;
+      for (int j = 0; j < sub; ++j) {
+        for (int i = 0; i < sub; ++i) {
+          const Eigen::Vector2d at = left + ((i + 0.5) / sub) * dx + ((j + 0.5) / sub - 0.5) * dy;
           sum += detail::brightness(target, cam_from_board, laser, look, at.x(), at.y());
         }
       }
-      picture(y, x) = static_cast<float>(sum / (kSub * kSub));
+      picture(y, x) = static_cast<float>(sum / (sub * sub));
       left = right;
       low = left + dy;
     }
@@ -106,14 +120,16 @@ inline std::vector<Eigen::Vector2d> true_corners(const Camera& camera, const Tar
   return corners;
 }
 
-/// A board whose middle is `centre` (camera frame, mm), facing the camera, then tilted about its x, y and turned about z.
-inline Rigid3 board_pose(const Target& target, const Eigen::Vector3d& centre, double tilt_x_deg, double tilt_y_deg,
-                         double turn_deg) {
+/// A board whose middle is `centre` (camera frame, mm), facing the camera, then tilted about its x, y and
+/// turned about z.
+inline Rigid3 board_pose(const Target& target, const Eigen::Vector3d& centre, double tilt_x_deg,
+                         double tilt_y_deg, double turn_deg) {
   const double deg = std::acos(-1.0) / 180;
   const Eigen::Quaterniond q = Eigen::AngleAxisd(tilt_x_deg * deg, Eigen::Vector3d::UnitX()) *
                                Eigen::AngleAxisd(tilt_y_deg * deg, Eigen::Vector3d::UnitY()) *
                                Eigen::AngleAxisd(turn_deg * deg, Eigen::Vector3d::UnitZ());
-  const Eigen::Vector3d middle(0.5 * (target.columns - 1) * target.pitch_x, 0.5 * (target.rows - 1) * target.pitch_y, 0);
+  const Eigen::Vector3d middle(0.5 * (target.columns - 1) * target.pitch_x,
+                               0.5 * (target.rows - 1) * target.pitch_y, 0);
   return {q, centre - q * middle};
 }
 

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The lightstripe authors
 // SPDX-License-Identifier: Apache-2.0
-// Known two-sensor rail rigs and what they would observe: for the tests of calib. No images, only measurements.
+// Known two-sensor rail rigs and what they would observe: for the tests of calib. No images, only
+// measurements.
 #pragma once
 
 #include <algorithm>
@@ -24,8 +25,9 @@ struct SyntheticRig {
   double range_mm = 550;
 };
 
-/// Sensors around a section: the first looks along z at (0, 0, range); the next stand turned by 55 degrees about the
-/// direction of travel. Laser planes 0.5 degrees and 1 mm beside each other. The details depend on the seed.
+/// Sensors around a section: the first looks along z at (0, 0, range); the next stand turned by 55 degrees
+/// about the direction of travel. Laser planes 0.5 degrees and 1 mm beside each other. The details depend on
+/// the seed.
 inline SyntheticRig rail_rig(int num_sensors = 2, std::uint64_t seed = 0) {
   Random random(seed, 1000);
   SyntheticRig rig;
@@ -34,18 +36,25 @@ inline SyntheticRig rail_rig(int num_sensors = 2, std::uint64_t seed = 0) {
   rig.target.pitch_x = rig.target.pitch_y = 10;
   const double slant = (40 + random.uniform(-5, 5)) * kDegree;
   const Eigen::Vector3d travel(0.02, std::cos(slant), std::sin(slant));
-  rig.direction = (travel + 0.03 * Eigen::Vector3d(random.uniform(-1, 1), random.uniform(-1, 1), 0)).normalized();
+  rig.direction =
+      (travel + 0.03 * Eigen::Vector3d(random.uniform(-1, 1), random.uniform(-1, 1), 0)).normalized();
   const Eigen::Vector3d centre(0, 0, rig.range_mm);
   for (int i = 0; i < num_sensors; ++i) {
     SensorState sensor;
-    sensor.camera = {960, 700, 1640 + random.uniform(-30, 30), 1640 + random.uniform(-30, 30), 480 + random.uniform(-10, 10),
-                     350 + random.uniform(-10, 10), {}};
+    sensor.camera = {960,
+                     700,
+                     1640 + random.uniform(-30, 30),
+                     1640 + random.uniform(-30, 30),
+                     480 + random.uniform(-10, 10),
+                     350 + random.uniform(-10, 10),
+                     {}};
     sensor.camera.distortion = {-0.09 + random.uniform(-0.02, 0.02), 0.12, 4e-4 * random.uniform(-1, 1),
                                 4e-4 * random.uniform(-1, 1), -0.05};
     const Eigen::Quaterniond turn(Eigen::AngleAxisd(i * 55 * kDegree, travel.normalized()));
     sensor.cam_from_first = {turn, centre - turn * centre};
     const Eigen::Vector3d normal =
-        (travel.normalized() + 0.01 * Eigen::Vector3d(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)))
+        (travel.normalized() +
+         0.01 * Eigen::Vector3d(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)))
             .normalized();
     sensor.laser_planes.push_back({normal, normal.dot(centre) + random.uniform(-1, 1)});
     rig.sensors.push_back(sensor);
@@ -71,13 +80,15 @@ inline Rigid3 random_board(const SyntheticRig& rig, const SessionOptions& option
   const Eigen::Quaterniond q = towards * Eigen::AngleAxisd(random.uniform(-t, t), Eigen::Vector3d::UnitX()) *
                                Eigen::AngleAxisd(random.uniform(-t, t), Eigen::Vector3d::UnitY()) *
                                Eigen::AngleAxisd(random.uniform(-0.5, 0.5), Eigen::Vector3d::UnitZ());
-  const Eigen::Vector3d centre(random.uniform(-40, 40), random.uniform(-25, 25), rig.range_mm + random.uniform(-50, 50));
+  const Eigen::Vector3d centre(random.uniform(-40, 40), random.uniform(-25, 25),
+                               rig.range_mm + random.uniform(-50, 50));
   const Eigen::Vector3d middle(0.5 * (rig.target.columns - 1) * rig.target.pitch_x,
                                0.5 * (rig.target.rows - 1) * rig.target.pitch_y, 0);
   return {q, centre - q * middle};
 }
 
-inline std::vector<Eigen::Vector2d> seen_corners(const Target& target, const Camera& camera, const Rigid3& cam_from_board) {
+inline std::vector<Eigen::Vector2d> seen_corners(const Target& target, const Camera& camera,
+                                                 const Rigid3& cam_from_board) {
   std::vector<Eigen::Vector2d> corners;
   for (int i = 0; i < target.num_corners(); ++i) {
     const Eigen::Vector2d p = target.corner(i);
@@ -92,22 +103,25 @@ inline bool inside(const Camera& camera, const Eigen::Vector2d& q) {
 }
 
 /// Where the laser crosses the board, as exact stripe points of unit-less width.
-inline std::vector<StripePoint> seen_stripe(const Target& target, const SensorState& sensor, const Rigid3& cam_from_board,
-                                            double spacing_px) {
+inline std::vector<StripePoint> seen_stripe(const Target& target, const SensorState& sensor,
+                                            const Rigid3& cam_from_board, double spacing_px) {
   std::vector<StripePoint> points;
   const auto line = stripe_line(board_plane(cam_from_board), sensor.laser_planes.front());
   if (!line) return points;
   const Rigid3 board_from_cam = cam_from_board.inverse();
-  Eigen::Vector2d last(-1e9, 0);
-  for (double s = -400; s < 400; s += 0.02) {
+  constexpr double kStep_mm = 0.5;  // while off the board
+  double step_mm = kStep_mm;
+  for (double s = -400; s < 400; s += step_mm) {
     const Eigen::Vector3d p_cam = line->point + s * line->direction;
     const Eigen::Vector3d p = board_from_cam * p_cam;
-    const bool on_board = p.x() > -target.pitch_x && p.x() < target.columns * target.pitch_x && p.y() > -target.pitch_y &&
-                          p.y() < target.rows * target.pitch_y;
-    const auto q = project(sensor.camera, p_cam);
-    if (!on_board || !q || !inside(sensor.camera, *q) || (*q - last).norm() < spacing_px) continue;
-    const auto next = project(sensor.camera, p_cam + 0.02 * line->direction);
+    const bool on_board = p.x() > -target.pitch_x && p.x() < target.columns * target.pitch_x &&
+                          p.y() > -target.pitch_y && p.y() < target.rows * target.pitch_y;
+    const auto q = project(sensor.camera, p_cam),
+               next = project(sensor.camera, p_cam + 0.02 * line->direction);
+    step_mm = kStep_mm;
+    if (!on_board || !q || !next || !inside(sensor.camera, *q)) continue;
     const Eigen::Vector2d tangent = (*next - *q).normalized();
+    step_mm = spacing_px * 0.02 / (*next - *q).norm();
     StripePoint point;
     point.x = q->x();
     point.y = q->y();
@@ -115,7 +129,6 @@ inline std::vector<StripePoint> seen_stripe(const Target& target, const SensorSt
     point.normal_y = tangent.x();
     point.width = spacing_px;
     points.push_back(point);
-    last = *q;
   }
   return points;
 }
@@ -129,7 +142,7 @@ inline void add_noise(BoardView& view, const SessionOptions& options, Random& ra
       point.x += shift * point.normal_x;
       point.y += shift * point.normal_y;
       point.sigma_px = options.stripe_noise_px;
-      point.width = 0.99 * options.stripe_width_px;  // noise must not make neighbours closer than a width
+      point.width = 0.9 * options.stripe_width_px;  // noise must not make neighbours closer than a width
     }
   }
 }
@@ -140,13 +153,15 @@ inline Rigid3 visible_board(const SyntheticRig& rig, const SessionOptions& optio
     const Rigid3 first_from_board = random_board(rig, options, random);
     const bool visible = std::all_of(rig.sensors.begin(), rig.sensors.end(), [&](const SensorState& sensor) {
       const auto corners = seen_corners(rig.target, sensor.camera, sensor.cam_from_first * first_from_board);
-      return std::all_of(corners.begin(), corners.end(), [&](const auto& q) { return inside(sensor.camera, q); });
+      return std::all_of(corners.begin(), corners.end(),
+                         [&](const auto& q) { return inside(sensor.camera, q); });
     });
     if (visible) return first_from_board;
   }
 }
 
-inline MotionObservations observe_travel(const SyntheticRig& rig, const SessionOptions& options, Random& random) {
+inline MotionObservations observe_travel(const SyntheticRig& rig, const SessionOptions& options,
+                                         Random& random) {
   MotionObservations motion;
   const auto& sensor = rig.sensors.front();
   const Rigid3 board = visible_board(rig, {.max_tilt_deg = 10}, random);
@@ -164,14 +179,29 @@ inline MotionObservations observe_travel(const SyntheticRig& rig, const SessionO
   return motion;
 }
 
+/// The session's board poses, first frame.
+inline std::vector<Rigid3> board_poses(const SyntheticRig& rig, const SessionOptions& options) {
+  Random random(options.seed, 6);
+  std::vector<Rigid3> poses;
+  for (int i = 0; i < options.poses; ++i) poses.push_back(visible_board(rig, options, random));
+  return poses;
+}
+
 inline CalibrationObservations observe(const SyntheticRig& rig, const SessionOptions& options = {}) {
   Random random(options.seed, 7);
+  const auto poses = board_poses(rig, options);
   CalibrationObservations observations;
   observations.target = rig.target;
   for (std::size_t s = 0; s < rig.sensors.size(); ++s)
-    observations.sensors.push_back({s == 0 ? "gauge" : s == 1 ? "field" : "extra" + std::to_string(s), 960, 700, 1, {}});
+    observations.sensors.push_back({s == 0   ? "gauge"
+                                    : s == 1 ? "field"
+                                             : "extra" + std::to_string(s),
+                                    960,
+                                    700,
+                                    1,
+                                    {}});
   for (int pose = 0; pose < options.poses; ++pose) {
-    const Rigid3 first_from_board = visible_board(rig, options, random);
+    const Rigid3& first_from_board = poses[static_cast<std::size_t>(pose)];
     for (std::size_t s = 0; s < rig.sensors.size(); ++s) {
       const Rigid3 cam_from_board = rig.sensors[s].cam_from_first * first_from_board;
       BoardView view;

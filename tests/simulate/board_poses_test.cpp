@@ -17,7 +17,7 @@ using Eigen::Vector3d;
 
 int corners_in_view(const SimulatedSensor& sensor, const Target& target, const Rigid3& pose,
                     const Vector3d& shift) {
-  const View view{&sensor, shift, 0, false};
+  const View view{&sensor, shift, 0, 0};
   int seen = 0;
   for (int i = 0; i < target.num_corners(); ++i)
     seen += pixel_of(view, pose * Vector3d(target.corner(i).x(), target.corner(i).y(), 0)).has_value();

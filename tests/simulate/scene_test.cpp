@@ -43,6 +43,14 @@ TEST(SceneFile, KeysLeftOutKeepTheDefaults) {
   EXPECT_EQ(scene.sensors[1].name, "field");
 }
 
+TEST(SceneFile, OutlineFileIsRelativeToTheScenesFolder) {
+  const fs::path folder = fs::temp_directory_path();
+  EXPECT_EQ(read_scene(written("rail: {profile: rails/mine.yaml}\n")).rail.profile,
+            (folder / "rails/mine.yaml").string());
+  EXPECT_EQ(read_scene(written("rail: {profile: /rails/mine.yaml}\n")).rail.profile, "/rails/mine.yaml");
+  EXPECT_EQ(read_scene(written("rail: {profile: 60E1}\n")).rail.profile, "60E1");
+}
+
 TEST(SceneFile, DumpReadsBackToTheSameScene) {
   Scene scene;
   scene.steps.emplace_back();

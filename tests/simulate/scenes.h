@@ -36,7 +36,7 @@ inline Imaging noise_free() {
 }
 
 inline View lit_view(const SimulatedSensor& sensor, double ambient) {
-  return {&sensor, Eigen::Vector3d::Zero(), ambient, true};
+  return {&sensor, Eigen::Vector3d::Zero(), ambient, 1};
 }
 
 inline Image<float> rendered(const World& world, const View& view, const Imaging& imaging) {

@@ -1,0 +1,24 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+#include "calib/uncertainty.h"
+
+#include <gtest/gtest.h>
+
+namespace lightstripe {
+namespace {
+
+TEST(WithoutRigidMotion, TakesOutShiftsAndTurnsOnly) {
+  Eigen::VectorXd section(8), shift(8), turn(8), stretch(8);
+  section << 0, 0, 10, 0, 10, 10, 0, 10;
+  shift << 3, -2, 3, -2, 3, -2, 3, -2;
+  turn << 5, -5, 5, 5, -5, 5, -5, -5;  // (-(y - 5), x - 5) of the points
+  turn *= -1;
+  stretch << -5, -5, 5, -5, 5, 5, -5, 5;
+  const Eigen::MatrixXd P = without_rigid_motion(section);
+  EXPECT_LT((P * shift).norm(), 1e-12);
+  EXPECT_LT((P * turn).norm(), 1e-12);
+  EXPECT_LT((P * stretch - stretch).norm(), 1e-12);
+}
+
+}  // namespace
+}  // namespace lightstripe
