@@ -105,7 +105,7 @@ ViewResult observe_view(const ViewTask& task, const Session& session, const Extr
   const BoardDetection detection = find_board(task.board, session, board);
   result.width = board.width;
   result.height = board.height;
-  const std::string name = task.board.filename().string();
+  const std::string name = task.motion ? task.pose : task.board.filename().string();
   if (!detection.found) {
     result.rejected.push_back({sensor.name, name, detection.reason});
     return result;

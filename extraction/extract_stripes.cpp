@@ -85,7 +85,7 @@ ImageFacts look_at(ImageView<T> image) {
       std::clamp(static_cast<int>(pixels / kEnoughPixels), 1, std::max(1, image.height / 32));
   ImageFacts facts;
   facts.histogram = compute_histogram(image, row_step);
-  facts.noise = estimate_noise(image, 2 * row_step);
+  facts.noise = estimate_noise(image, 4 * row_step);
   facts.seed_contrast = std::max(4.0, 5.0 * facts.noise);
   return facts;
 }

@@ -148,7 +148,7 @@ TEST_F(Cli, FramesOfAnotherSizeAreRefused) {
   fs::copy(data() / "scan", out_ / "scan", fs::copy_options::recursive);
   write_text(out_ / "scan/solo/0002.pgm", "P5\n4 3\n255\n123456789012");
   fs::remove(out_ / "scan/solo/0002.png");
-  write_text(out_ / "scan.yaml", "rig: " + (data() / "rig.yaml").string() + "\nframes: {solo: scan/solo/000?.p*}\ntravel: {step: 2}\n");
+  write_text(out_ / "scan.yaml", "rig: " + (data() / "rig.yaml").string() + "\nframes: {solo: 'scan/solo/000?.p*'}\ntravel: {step: 2}\n");
   expect_error(run_lightstripe("reconstruct " + quoted(out_ / "scan.yaml") + " -o " + quoted(out_ / "c.ply")), 1, "0002.pgm");
 }
 
