@@ -16,24 +16,40 @@ using Eigen::Matrix3d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
+/// Where one pixel changes the range by more than this part of it, ray and plane run so nearly side by side that the
+/// point says nothing: what is seen there is not the laser's light on a surface within reach.
+constexpr double kMaxRangeChangePerPx = 0.05;
+
 struct PlanePoint {
   Vector3d p_cam;        ///< mm
   double mm_per_px = 0;  ///< square to the section, per px across the stripe
 };
 
-/// How far the point on the laser plane moves square to the section when the stripe point moves by 1 px
-/// across the stripe. With the ray r = (x, y, 1) and P = s r on n.P = d: dP = s (dr - r (n.dr) / (n.r)), and
-/// s = P.z.
-double section_mm_per_px(const Camera& camera, const Plane& plane, const Vector3d& ray, double depth_mm,
-                         const Vector2d& normal_px) {
-  const Eigen::Matrix2d normalised_per_px = projection_jacobian(camera, ray.head<2>()).inverse();
-  const auto moved = [&](const Vector2d& pixels) {
+/// A ray r = (x, y, 1) that meets the plane n.P = d in P = s r, with s = P.z.
+struct MetRay {
+  const Plane& plane;
+  const Vector3d& ray;
+  Eigen::Matrix2d normalised_per_px;
+
+  Vector3d ray_change(const Vector2d& pixels) const {
     const Vector2d dxy = normalised_per_px * pixels;
-    const Vector3d dr(dxy.x(), dxy.y(), 0);
-    return Vector3d(depth_mm * (dr - ray * (plane.normal.dot(dr) / plane.normal.dot(ray))));
-  };
-  const Vector3d across = moved(normal_px), along = moved({-normal_px.y(), normal_px.x()});
-  return across.cross(along).norm() / along.norm();
+    return {dxy.x(), dxy.y(), 0};
+  }
+  /// ds / s
+  double range_change(const Vector3d& dr) const { return -plane.normal.dot(dr) / plane.normal.dot(ray); }
+  /// dP / s
+  Vector3d point_change(const Vector2d& pixels) const {
+    const Vector3d dr = ray_change(pixels);
+    return dr + ray * range_change(dr);
+  }
+};
+
+/// How far the point on the laser plane moves square to the section when the stripe point moves by 1 px
+/// across the stripe.
+double section_mm_per_px(const MetRay& met, double depth_mm, const Vector2d& normal_px) {
+  const Vector3d across = met.point_change(normal_px);
+  const Vector3d along = met.point_change({-normal_px.y(), normal_px.x()});
+  return depth_mm * across.cross(along).norm() / along.norm();
 }
 
 std::optional<PlanePoint> meet_plane(const Camera& camera, const Plane& plane, const StripePoint& point) {
@@ -41,8 +57,10 @@ std::optional<PlanePoint> meet_plane(const Camera& camera, const Plane& plane, c
   if (!ray) return std::nullopt;
   const auto p_cam = intersect(plane, Vector3d::Zero(), *ray);
   if (!p_cam) return std::nullopt;
-  return PlanePoint{*p_cam,
-                    section_mm_per_px(camera, plane, *ray, p_cam->z(), {point.normal_x, point.normal_y})};
+  const MetRay met{plane, *ray, projection_jacobian(camera, ray->head<2>()).inverse()};
+  const Vector2d normal_px(point.normal_x, point.normal_y);
+  if (std::abs(met.range_change(met.ray_change(normal_px))) > kMaxRangeChangePerPx) return std::nullopt;
+  return PlanePoint{*p_cam, section_mm_per_px(met, p_cam->z(), normal_px)};
 }
 
 /// Section coordinates of a point given in the rig frame and in the result's.
