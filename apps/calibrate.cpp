@@ -24,10 +24,10 @@ std::string describe_rejected(const std::vector<RejectedImage>& rejected) {
 }
 
 std::string describe_views(const std::vector<ViewResidual>& views) {
-  std::string text = "  sensor     image             corners  rms px    stripe  rms px\n";
+  std::string text = "  sensor     image             corners  rms px    stripe  rms px  left out\n";
   for (const auto& v : views)
-    text += fmt::format("  {:<10} {:<16} {:>8} {:>7.3f}  {:>8} {:>7}\n", v.sensor, v.image, v.corners, v.board_rms_px,
-                        v.stripe_points, v.stripe_points > 0 ? fmt::format("{:.3f}", v.stripe_rms_px) : "-");
+    text += fmt::format("  {:<10} {:<16} {:>8} {:>7.3f}  {:>8} {:>7}  {:>8}\n", v.sensor, v.image, v.corners, v.board_rms_px,
+                        v.stripe_points, v.stripe_points > 0 ? fmt::format("{:.3f}", v.stripe_rms_px) : "-", v.left_out);
   return text;
 }
 

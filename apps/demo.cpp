@@ -65,13 +65,13 @@ std::string accuracy_table(const RigError& rig, const CloudError& cloud) {
   return table;
 }
 
-int run_demo(const CommonOptions& common) {
+int run_demo(const std::string& scene_file, const CommonOptions& common) {
   const fs::path folder = common.output.empty() ? "demo-output" : common.output;
   CommonOptions stage = common;
 
   say(common, "1/3 rendering a calibration session and a scan of a rail");
   stage.output = folder.string();
-  const SimulationSummary simulated = simulate_with_progress(Scene{}, stage);
+  const SimulationSummary simulated = simulate_with_progress(scene_file.empty() ? Scene{} : read_scene(scene_file), stage);
 
   say(common, "2/3 calibrating the rig from the board images");
   stage.output = (folder / "rig.yaml").string();
@@ -108,8 +108,10 @@ int run_demo(const CommonOptions& common) {
 void add_demo_command(CLI::App& app, Command& run) {
   auto* command = app.add_subcommand("demo", "the whole chain on a built-in synthetic rig, results beside the truth");
   auto common = std::make_shared<CommonOptions>();
+  auto scene = std::make_shared<std::string>();
+  command->add_option("scene", *scene, "another scene (YAML) than the built-in one; see configs/scenes");
   add_common_options(*command, *common, "folder to write to (default: demo-output)");
-  command->callback([common, &run] { run = [common] { return run_demo(*common); }; });
+  command->callback([scene, common, &run] { run = [scene, common] { return run_demo(*scene, *common); }; });
 }
 
 }  // namespace lightstripe

@@ -14,7 +14,7 @@
 namespace lightstripe {
 namespace {
 
-const std::filesystem::path kPot = "/work/shared/data/pot/board";
+const std::filesystem::path kPot = LIGHTSTRIPE_SOURCE_DIR "/../shared/data/pot/board";
 
 /// The red line hardly shows in green.
 CalibrationObservations observe_pot() {

@@ -72,7 +72,7 @@ TEST(Nominal60E1, RunsSmoothlyThroughTheHeadsTangentPoints) {
 
 // Rounding of the table: 1e-5 mm in the tangent points, 1e-5 in each sample.
 TEST(Nominal60E1, AgreesWithTheReferenceContour) {
-  std::ifstream file("/work/shared/reference/60E1_full_0p25mm.csv");
+  std::ifstream file(LIGHTSTRIPE_SOURCE_DIR "/../shared/reference/60E1_full_0p25mm.csv");
   if (!file) GTEST_SKIP() << "reference contour not present";
   const Outline rail = read_nominal("60E1");
   std::string line;
