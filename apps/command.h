@@ -84,5 +84,6 @@ void add_reconstruct_command(CLI::App& app, Command& run);
 void add_simulate_command(CLI::App& app, Command& run);
 void add_demo_command(CLI::App& app, Command& run);
 void add_bench_command(CLI::App& app, Command& run);
+void add_generate_command(CLI::App& app, Command& run);
 
 }  // namespace lightstripe
