@@ -33,6 +33,7 @@ int run(int argc, char** argv) {
   lightstripe::add_merge_command(app, command);
   lightstripe::add_simulate_command(app, command);
   lightstripe::add_bench_command(app, command);
+  lightstripe::add_generate_command(app, command);
   if (argc < 2) {
     fmt::print(stderr, "{}", app.help());
     return lightstripe::kExitUsage;

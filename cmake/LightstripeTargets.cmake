@@ -21,9 +21,12 @@ function(lightstripe_library name)
   add_library(lightstripe::${name} ALIAS lightstripe_${name})
   set_target_properties(lightstripe_${name} PROPERTIES POSITION_INDEPENDENT_CODE ON EXPORT_NAME ${name})
   target_include_directories(lightstripe_${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
-                                                        $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src>)
+                                                        $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src>
+                                                        $<INSTALL_INTERFACE:${LIGHTSTRIPE_INSTALL_HEADERS}>)
+  target_compile_features(lightstripe_${name} PUBLIC cxx_std_20)
   list(TRANSFORM ARG_DEPS PREPEND lightstripe::)
   target_link_libraries(lightstripe_${name} PUBLIC ${ARG_DEPS} ${ARG_EXTERNAL} PRIVATE $<BUILD_INTERFACE:lightstripe_flags>)
+  lightstripe_install_library(${name})
 endfunction()
 
 # lightstripe_tests(<folder> DEPS <libraries>): every <x>_test.cpp of tests/<folder> becomes one executable
