@@ -1,0 +1,17 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+// Neighbouring points of a stripe share errors: how many of them make one independent measurement.
+#pragma once
+
+#include <vector>
+
+#include "measure/closest_points.h"
+
+namespace lightstripe {
+
+/// 1 + 2 sum of the autocorrelation of the residuals along the chains, up to the first lag where it is not
+/// positive; at least 1. Points of weight 0 are left out, and the mean is not removed: an offset that a whole
+/// chain shares is correlation.
+double correlated_points(const Section& section, const std::vector<FitPoint>& points);
+
+}  // namespace lightstripe
