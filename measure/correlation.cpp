@@ -3,6 +3,7 @@
 #include "measure/correlation.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace lightstripe {
 
@@ -26,6 +27,29 @@ double correlated_points(const Section& section, const std::vector<FitPoint>& po
     sum += 2 * product / pairs / variance;
   }
   return sum;
+}
+
+double stretch_error_mm(const Section& section, const std::vector<FitPoint>& points) {
+  constexpr double kStretchMm = 8;
+  constexpr int kFewestPoints = 5, kFewestStretches = 4;
+  double squares = 0, sum = 0;
+  int stretches = 0, count = 0;
+  const FitPoint* first = nullptr;
+  const auto close = [&] {
+    if (count >= kFewestPoints) squares += sum * sum / count / count, ++stretches;
+    sum = 0, count = 0, first = nullptr;
+  };
+  for (const FitPoint& point : points) {
+    if (point.weight <= 0) continue;
+    const auto chain_of = [&](const FitPoint& p) { return section[static_cast<std::size_t>(p.index)].chain; };
+    if (first &&
+        (chain_of(*first) != chain_of(point) || (point.position - first->position).norm() > kStretchMm))
+      close();
+    if (!first) first = &point;
+    sum += point.residual, ++count;
+  }
+  close();
+  return stretches >= kFewestStretches ? std::sqrt(squares / stretches) : 0.0;
 }
 
 }  // namespace lightstripe

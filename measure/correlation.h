@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The lightstripe authors
 // SPDX-License-Identifier: Apache-2.0
-// Neighbouring points of a stripe share errors: how many of them make one independent measurement.
+// Neighbouring points of a stripe share errors: how many of them make one independent measurement, and what
+// is left in a stretch of them.
 #pragma once
 
 #include <vector>
@@ -13,5 +14,9 @@ namespace lightstripe {
 /// positive; at least 1. Points of weight 0 are left out, and the mean is not removed: an offset that a whole
 /// chain shares is correlation.
 double correlated_points(const Section& section, const std::vector<FitPoint>& points);
+
+/// What the place of a short stretch of surface errs by, beyond its points' scatter: rms of the mean
+/// residuals of stretches of some 8 mm of the chains. 0 with fewer than four stretches.
+double stretch_error_mm(const Section& section, const std::vector<FitPoint>& points);
 
 }  // namespace lightstripe

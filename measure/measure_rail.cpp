@@ -32,12 +32,24 @@ Estimate corner_wear(const PlacedSection& placed, int side) {
     const double reach = point.position.dot(outwards);
     if (reach > best) best = reach, corner = point.position;
   }
-  return wear_of(fit_surface(placed, {corner, outwards, 2.0, 16}), placed.registration, "gauge corner");
+  return wear_of(fit_surface(placed, {corner, outwards, -2, 2, 16, 2}), placed.registration, "gauge corner");
+}
+
+/// A head face at a height. Its line is carried up from some way below: at the gauge point the stripe begins
+/// to bend into the corner, and the images of sharp bends are drawn inwards a little. A face that is no
+/// straight line against the reference's is taken where it is asked for.
+SurfaceFit fit_face(const PlacedSection& placed, int side, double v) {
+  constexpr double kBelowMm = 8, kAboveMm = 1.0, kReachMm = 60, kStraightMm = 0.02;
+  const Vector2d outwards(side, 0);
+  SurfaceProbe probe{{0, v}, outwards, -kBelowMm, kAboveMm, kReachMm, 1};
+  if (side < 0) probe.from_mm = -kAboveMm, probe.to_mm = kBelowMm;
+  const SurfaceFit straight = fit_surface(placed, probe);
+  if (straight.known() && straight.rms_mm < kStraightMm) return straight;
+  return fit_surface(placed, {{0, v}, outwards, -kAboveMm, kAboveMm, kReachMm, 2});
 }
 
 Estimate width_of(const PlacedSection& placed, double depth_v) {
-  const SurfaceFit right = fit_surface(placed, {{0, depth_v}, {1, 0}, 1.5, 60});
-  const SurfaceFit left = fit_surface(placed, {{0, depth_v}, {-1, 0}, 1.5, 60});
+  const SurfaceFit right = fit_face(placed, 1, depth_v), left = fit_face(placed, -1, depth_v);
   if (!right.known()) return Estimate::unknown("head face +y " + right.reason);
   if (!left.known()) return Estimate::unknown("head face -y " + left.reason);
   // Along two opposite directions: a shift cancels, so do the responses' sum.
@@ -58,8 +70,9 @@ Estimate face_angle(const PlacedSection& placed, int side, double gauge_v) {
   }
   const auto fit = fit_polynomial(face, 1, 0.005);
   if (!fit || last - first < kFewestMm) return Estimate::unknown("gauge face not seen");
-  const double share = std::min(1.0, fit->slope_factor * placed.registration.correlated_points);
-  const double local = fit->rms * std::sqrt(share);
+  // Two stretches of the face, one at either end, each off by the stretch error.
+  const double stretch = placed.registration.stretch_error_mm * std::sqrt(2.0) / (last - first);
+  const double local = std::hypot(fit->rms * std::sqrt(fit->slope_factor), stretch);
   const double turn = std::sqrt(placed.registration.covariance(0, 0));
   return Estimate::known(-std::atan(fit->slope) * kDegrees, std::hypot(local, turn) * kDegrees);
 }
@@ -99,8 +112,8 @@ RailMeasurement measure_rail(const Section& section, const ReferenceShape& refer
   const PlacedSection placed = place(section, reference, registration);
   const int side = options.gauge_side == GaugeSide::kLeft ? 1 : -1;
   RailMeasurement out;
-  out.vertical_wear = wear_of(fit_surface(placed, {{0, reference.top_v()}, {0, 1}, 4.0, 20}), registration,
-                              "top of the head");
+  out.vertical_wear = wear_of(fit_surface(placed, {{0, reference.top_v()}, {0, 1}, -4, 4, 20, 2}),
+                              registration, "top of the head");
   out.corner45_wear = corner_wear(placed, side);
   out.head_area_loss = head_area_loss(placed);
   out.inclination = Estimate::known(-registration.reference_from_section.move.angle_rad * kDegrees,
@@ -114,7 +127,7 @@ RailMeasurement measure_rail(const Section& section, const ReferenceShape& refer
     return out;
   }
   const double gauge_v = (floating ? top.v : reference.top_v()) - options.gauge_point_mm;
-  const SurfaceFit face = fit_surface(placed, {{0, gauge_v}, {static_cast<double>(side), 0}, 1.5, 60});
+  const SurfaceFit face = fit_face(placed, side, gauge_v);
   const bool shadowed = !face.known() && out.lip.value.value_or(0) > 0;
   out.side_wear = wear_of(face, registration, shadowed ? "a lip shadows the gauge point:" : "gauge face");
   out.head_width = width_of(placed, gauge_v);

@@ -26,8 +26,8 @@ struct Place {
 Place place_from(const std::optional<PolynomialFit>& fit, double at, const Registration& registration,
                  const std::string& what) {
   if (!fit) return {what + " not seen", 0, 0};
-  const double share = std::min(1.0, fit->value_factor * registration.correlated_points);
-  return {"", at + fit->value, std::max(fit->rms, kMinScaleMm) * std::sqrt(share)};
+  const double scatter = std::max(fit->rms, kMinScaleMm) * std::sqrt(fit->value_factor);
+  return {"", at + fit->value, std::hypot(scatter, registration.stretch_error_mm)};
 }
 
 /// u of the wheel's back: of its own points, else of the registration.

@@ -47,7 +47,7 @@ struct SectionPrior {
   bool may_mirror = false;
   bool may_be_upside_down = false;
   bool upright = false;  ///< its angle is right (a rotary scan, an aligned file): only shifts are sought
-  std::optional<SectionPose> pose;  ///< known altogether; nothing is sought but how well it fits
+  std::optional<SectionPose> pose = {};  ///< known altogether; nothing is sought but how well it fits
 };
 
 struct Registration {
@@ -58,6 +58,7 @@ struct Registration {
   int num_points = 0;           ///< that count
   double correlated_points =
       1;  ///< how many neighbours share one error: sigma of a mean of n is rms sqrt(this / n)
+  double stretch_error_mm = 0;  ///< what the place of a short stretch of surface errs by, beyond scatter
   RegistrationView view = RegistrationView::kNone;
   std::string reason = "not registered";  ///< empty: usable
 

@@ -13,7 +13,7 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kFloorMm = 0.005;  // robust scale: what a good scan's points scatter by
+constexpr double kFloorMm = 0.002;  // robust scale: below what any scan scatters by
 
 Vector3d registration_jacobian(const SurfaceFit& fit) {
   const Vector2d &p = fit.place, &w = fit.response;
@@ -21,17 +21,18 @@ Vector3d registration_jacobian(const SurfaceFit& fit) {
 }
 
 /// Why the samples do not cover the probe; empty if they do.
-std::string hole_in(std::vector<Sample1> samples, double half_width_mm) {
+std::string hole_in(std::vector<Sample1> samples, const SurfaceProbe& probe) {
   constexpr std::size_t kFewest = 6;
   if (samples.size() < kFewest) return samples.empty() ? "not seen" : "too few points";
   std::sort(samples.begin(), samples.end(), [](const Sample1& a, const Sample1& b) { return a.t < b.t; });
   if (samples.front().t > 0 || samples.back().t < 0) return "seen on one side only";
-  double last = -half_width_mm;
+  const double widest = (probe.to_mm - probe.from_mm) / 2;
+  double last = probe.from_mm;
   for (const Sample1& s : samples) {
-    if (s.t - last > half_width_mm) return "hole in the section";
+    if (s.t - last > widest) return "hole in the section";
     last = s.t;
   }
-  return half_width_mm - last > half_width_mm ? "hole in the section" : "";
+  return probe.to_mm - last > widest ? "hole in the section" : "";
 }
 
 }  // namespace
@@ -53,18 +54,18 @@ SurfaceFit fit_surface(const PlacedSection& placed, const SurfaceProbe& probe) {
   for (const Vector2d& p : placed.points) {
     const Vector2d from_origin = p - probe.origin;
     const double across = from_origin.dot(left), along = from_origin.dot(probe.outwards);
-    if (std::abs(across) > probe.half_width_mm || std::abs(along) > probe.reach_mm) continue;
+    if (across < probe.from_mm || across > probe.to_mm || std::abs(along) > probe.reach_mm) continue;
     const auto surface = placed.reference.surface_along(probe.origin, probe.outwards, across);
     if (surface && std::abs(*surface - along) < kMostWearMm)
       differences.push_back({across, *surface - along});
   }
-  out.reason = hole_in(differences, probe.half_width_mm);
+  out.reason = hole_in(differences, probe);
   const auto here = placed.reference.surface_along(probe.origin, probe.outwards, 0);
   const auto after = placed.reference.surface_along(probe.origin, probe.outwards, kDerivativeMm);
   const auto before = placed.reference.surface_along(probe.origin, probe.outwards, -kDerivativeMm);
   if (!here || !after || !before) out.reason = "the reference has no surface there";
   if (!out.known()) return out;
-  const auto fit = fit_polynomial(differences, 2, kFloorMm);
+  const auto fit = fit_polynomial(differences, probe.degree, kFloorMm);
   if (!fit) {
     out.reason = "points do not agree";
     return out;
@@ -74,8 +75,8 @@ SurfaceFit fit_surface(const PlacedSection& placed, const SurfaceProbe& probe) {
   out.slope = (*after - *before) / (2 * kDerivativeMm) - fit->slope;
   out.rms_mm = fit->rms;
   out.num_points = fit->num_samples;
-  const double share = std::min(1.0, fit->value_factor * placed.registration.correlated_points);
-  out.local_sigma_mm = fit->rms * std::sqrt(share);
+  out.local_sigma_mm =
+      std::hypot(fit->rms * std::sqrt(fit->value_factor), placed.registration.stretch_error_mm);
   out.place = probe.origin + out.along_mm * probe.outwards;
   out.response = probe.outwards - out.slope * left;
   return out;

@@ -21,13 +21,14 @@ struct PlacedSection {
 PlacedSection place(const Section& section, const ReferenceShape& reference,
                     const Registration& registration);
 
-/// Where to look: from `origin` along `outwards` (unit), at the points that lie within `half_width_mm` across
-/// it and `reach_mm` along it.
+/// Where to look: from `origin` along `outwards` (unit), at the points that lie between `from_mm` and `to_mm`
+/// across it (+ to its left) and within `reach_mm` along it.
 struct SurfaceProbe {
   Eigen::Vector2d origin = Eigen::Vector2d::Zero();
   Eigen::Vector2d outwards = Eigen::Vector2d::UnitY();
-  double half_width_mm = 1.5;
+  double from_mm = -1.5, to_mm = 1.5;
   double reach_mm = 16;
+  int degree = 2;  ///< of the polynomial of the difference to the reference
 };
 
 struct SurfaceFit {
@@ -35,7 +36,7 @@ struct SurfaceFit {
   double wear_mm = 0;                ///< reference minus measured, along `outwards`
   double along_mm = 0;               ///< of the measured surface, from the probe's origin
   double slope = 0;                  ///< d along / d across (to the left) of the measured surface
-  double local_sigma_mm = 0;         ///< of along_mm, from the points' scatter
+  double local_sigma_mm = 0;         ///< of along_mm: scatter and stretch error
   double rms_mm = 0;
   int num_points = 0;
   Eigen::Vector2d place = Eigen::Vector2d::Zero();
@@ -44,9 +45,9 @@ struct SurfaceFit {
   bool known() const { return reason.empty(); }
 };
 
-/// The difference to the reference, fitted robustly by a parabola across the probe: where the section is worn
-/// evenly it is smooth even where the outline bends. Unknown where there are fewer than six points, or none
-/// on one side, or a hole wider than half of the probe.
+/// The difference to the reference, fitted robustly by a polynomial across the probe: where the section is
+/// worn evenly it is smooth even where the outline bends. Unknown where there are fewer than six points, or
+/// none on one side of the origin, or a hole wider than half of the probe.
 SurfaceFit fit_surface(const PlacedSection& placed, const SurfaceProbe& probe);
 
 /// 1-sigma of a surface's place along the probe: points and registration.
