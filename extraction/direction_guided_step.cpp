@@ -7,7 +7,6 @@
 #include <optional>
 
 #include "extraction/bridge.h"
-#include "extraction/direction_guided.h"
 
 namespace lightstripe {
 namespace {

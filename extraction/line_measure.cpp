@@ -17,7 +17,7 @@ template <class T>
 CrossProfile profile_at(ImageView<T> image, const StripePoint& p, double full_width) {
   const bool column = std::abs(p.normal_y) >= std::abs(p.normal_x);
   const double cosine = column ? std::abs(p.normal_y) : std::abs(p.normal_x);
-  const int reach = 2 + static_cast<int>(std::ceil(1.25 * full_width / cosine));
+  const int reach = 3 + static_cast<int>(1.25 * full_width / cosine);
   if (column) {
     const int x = std::clamp(static_cast<int>(p.x + 0.5), 0, image.width - 1);
     return measure_profile(column_line(image, x), p.y, reach);
