@@ -3,6 +3,7 @@
 #include "extraction/cross_profile.h"
 
 #include <algorithm>
+#include <type_traits>
 
 namespace lightstripe {
 namespace {
@@ -12,7 +13,17 @@ template <class T>
 double mean_of_three(const PixelLine<T>& line, int index) {
   if (line.count < 3) return line[std::clamp(index, 0, line.count - 1)];
   const T* at = line.first + std::clamp(index, 1, line.count - 2) * line.step;
-  return (at[-line.step] + at[0] + at[line.step]) * (1.0 / 3.0);
+  return static_cast<double>(at[-line.step] + at[0] + at[line.step]) * (1.0 / 3.0);
+}
+
+/// What a grey value has to reach to be above a level: whole grey values are compared as such, which is
+/// faster.
+template <class T>
+auto comparable(double level) {
+  if constexpr (std::is_integral_v<T>)
+    return static_cast<int>(level) + 1;
+  else
+    return static_cast<T>(level);
 }
 
 /// Distances from the centre to where the grey value falls below two levels; -1 where it does not.
@@ -26,15 +37,17 @@ template <class T>
 Flank measure_flank(const T* start, std::ptrdiff_t step, int count, double ahead, double half_level,
                     double foot_level) {
   const auto place = [&](int k, double level) {
-    const double previous = start[(k - 1) * step], grey = start[k * step];
+    const double previous{static_cast<double>(start[(k - 1) * step])},
+        grey{static_cast<double>(start[k * step])};
     return ahead + k - 1 + (previous > level ? (previous - level) / (previous - grey) : 0.0);
   };
+  const auto half = comparable<T>(half_level), foot = comparable<T>(foot_level);
   Flank flank;
   int k = 1;
-  while (k <= count && start[k * step] >= half_level) ++k;
+  while (k <= count && start[k * step] >= half) ++k;
   if (k > count) return flank;
   flank.half = place(k, half_level);
-  while (k <= count && start[k * step] >= foot_level) ++k;
+  while (k <= count && start[k * step] >= foot) ++k;
   if (k <= count) flank.foot = place(k, foot_level);
   return flank;
 }
@@ -68,5 +81,6 @@ CrossProfile measure_profile(PixelLine<T> line, double centre, int reach) {
 
 template CrossProfile measure_profile<std::uint8_t>(PixelLine<std::uint8_t>, double, int);
 template CrossProfile measure_profile<std::uint16_t>(PixelLine<std::uint16_t>, double, int);
+template CrossProfile measure_profile<float>(PixelLine<float>, double, int);
 
 }  // namespace lightstripe

@@ -12,6 +12,7 @@
 #include "extraction/hu_recursive.h"
 #include "extraction/image_facts.h"
 #include "extraction/line_measure.h"
+#include "extraction/line_noise.h"
 #include "extraction/parsed_options.h"
 #include "extraction/smoothing.h"
 #include "extraction/steger.h"
@@ -192,7 +193,7 @@ template <class T>
 void finish_lines(const Run<T>& run) {
   ExtractionWorkspace& w = run.w;
   smooth_measures(w.kernels, w.lines, w.scratch);
-  predict_errors(w.kernels, run.facts.noise.full, w.lines);
+  predict_errors(run.image, w.kernels, run.facts.noise.full, w.lines, w.values);
   if (run.options.curvature_correction && has_ridges(run.options.method))
     correct_curvature_bias(w.kernels, w.lines, w.scratch, w.values);
   if (run.options.smoothing) smooth_along_lines(w.kernels, w.lines, w.smoothing);

@@ -8,22 +8,82 @@
 #include <numbers>
 
 #include "extraction/cross_profile.h"
-#include "extraction/line_point.h"
 
 namespace lightstripe {
 namespace {
 
+/// The row or column that crosses a line at one point.
 template <class T>
-CrossProfile profile_at(ImageView<T> image, const StripePoint& p, double full_width) {
-  const bool column = std::abs(p.normal_y) >= std::abs(p.normal_x);
-  const double cosine = column ? std::abs(p.normal_y) : std::abs(p.normal_x);
-  const int reach = 3 + static_cast<int>(1.25 * full_width / cosine);
-  if (column) {
-    const int x = std::clamp(static_cast<int>(p.x + 0.5), 0, image.width - 1);
-    return measure_profile(column_line(image, x), p.y, reach);
+struct Crossing {
+  PixelLine<T> line;
+  double centre = 0;  ///< px along the row or column
+  double cosine = 1;  ///< of the angle between it and the normal
+};
+
+template <class T>
+Crossing<T> crossing_at(ImageView<T> image, const StripePoint& p) {
+  const double nx = std::abs(p.normal_x), ny = std::abs(p.normal_y);
+  if (ny >= nx)
+    return {column_line(image, std::clamp(static_cast<int>(p.x + 0.5), 0, image.width - 1)), p.y, ny};
+  return {row_line(image, std::clamp(static_cast<int>(p.y + 0.5), 0, image.height - 1)), p.x, nx};
+}
+
+int profile_reach(double full_width, double cosine) {
+  return 3 + static_cast<int>(1.25 * full_width / cosine);
+}
+
+void set_measures(const CrossProfile& profile, double cosine, double clipped_level, std::size_t i,
+                  LineSet& lines, LineMeasures& m) {
+  StripePoint& p = lines.points[i];
+  p.width = profile.width() * cosine;
+  lines.half_level_widths[i] = static_cast<float>(profile.half_level_width * cosine);
+  p.intensity = static_cast<float>(profile.intensity());
+  m.contrast[i] = static_cast<float>(profile.contrast());
+  if (profile.brightest >= clipped_level) p.flags |= kStripeSaturated;
+  if (std::abs(profile.left - profile.right) > 0.35 * profile.width()) p.flags |= kStripeAsymmetric;
+}
+
+/// How many neighbours on each side have to be averaged before noise is small against the line's height.
+std::size_t averaging_reach(const DerivativeKernels& kernels, double noise, const LineSet& lines,
+                            const LineRange& r, LineMeasures& m) {
+  m.values.clear();
+  for (std::size_t i = r.begin; i < r.end; ++i) m.values.push_back(lines.points[i].strength);
+  const auto middle = m.values.begin() + static_cast<std::ptrdiff_t>(m.values.size() / 2);
+  std::nth_element(m.values.begin(), middle, m.values.end());
+  const double height = *middle / kernels.matched_strength(), ratio = 10 * noise / std::max(height, 1e-9);
+  return static_cast<std::size_t>(std::min(0.5 * ratio * ratio, 3 * kernels.sigma));
+}
+
+/// Adds (sign 1) or takes away (sign -1) the pixels around a point's centre.
+template <class T>
+void add_pixels(const Crossing<T>& c, int reach, float sign, std::vector<float>& sums) {
+  const int centre = static_cast<int>(c.centre + 0.5);
+  for (int k = -reach; k <= reach; ++k)
+    sums[static_cast<std::size_t>(k + reach)] +=
+        sign * static_cast<float>(c.line[std::clamp(centre + k, 0, c.line.count - 1)]);
+}
+
+/// The points of one line, each by the mean profile of its neighbours.
+template <class T>
+void measure_averaged(ImageView<T> image, double full_width, double clipped_level, std::size_t neighbours,
+                      const LineRange& r, LineSet& lines, LineMeasures& m) {
+  const int reach = profile_reach(full_width, 0.7);
+  m.sums.assign(static_cast<std::size_t>(2 * reach + 1), 0.0F);
+  m.profile.resize(m.sums.size());
+  std::size_t first = r.begin, end = r.begin;
+  for (std::size_t i = r.begin; i < r.end; ++i) {
+    for (; end < std::min(r.end, i + neighbours + 1); ++end)
+      add_pixels(crossing_at(image, lines.points[end]), reach, 1.0F, m.sums);
+    for (; first + neighbours < i; ++first)
+      add_pixels(crossing_at(image, lines.points[first]), reach, -1.0F, m.sums);
+    const float scale = 1.0F / static_cast<float>(end - first);
+    for (std::size_t k = 0; k < m.sums.size(); ++k) m.profile[k] = scale * m.sums[k];
+    const PixelLine<float> line{m.profile.data(), 1, static_cast<int>(m.profile.size())};
+    const Crossing<T> c = crossing_at(image, lines.points[i]);
+    const double centre = reach + c.centre - static_cast<int>(c.centre + 0.5);
+    set_measures(measure_profile(line, centre, profile_reach(full_width, c.cosine)), c.cosine, clipped_level,
+                 i, lines, m);
   }
-  const int y = std::clamp(static_cast<int>(p.y + 0.5), 0, image.height - 1);
-  return measure_profile(row_line(image, y), p.x, reach);
 }
 
 }  // namespace
@@ -36,29 +96,32 @@ double median_of(std::vector<float>& values) {
 }
 
 template <class T>
-void measure_points(ImageView<T> image, const DerivativeKernels& kernels, LineSet& lines,
-                    std::vector<float>& contrast) {
+void measure_points(ImageView<T> image, const DerivativeKernels& kernels, double noise, LineSet& lines,
+                    LineMeasures& m) {
   const double full_width = 2 * std::numbers::sqrt3 * kernels.sigma;
   constexpr double kClipped = std::numeric_limits<T>::max() - 1;  // some cameras stop one level short
-  contrast.resize(lines.points.size());
+  m.contrast.resize(lines.points.size());
   lines.half_level_widths.resize(lines.points.size());
-  for (std::size_t i = 0; i < lines.points.size(); ++i) {
-    StripePoint& p = lines.points[i];
-    const CrossProfile profile = profile_at(image, p, full_width);
-    const double cosine = std::max(std::abs(p.normal_x), std::abs(p.normal_y));
-    p.width = profile.width() * cosine;
-    lines.half_level_widths[i] = static_cast<float>(profile.half_level_width * cosine);
-    p.intensity = static_cast<float>(profile.intensity());
-    contrast[i] = static_cast<float>(profile.contrast());
-    if (profile.brightest >= kClipped) p.flags |= kStripeSaturated;
-    if (std::abs(profile.left - profile.right) > 0.35 * profile.width()) p.flags |= kStripeAsymmetric;
+  m.averaged.clear();
+  for (const LineRange& r : lines.lines) {
+    const std::size_t neighbours = averaging_reach(kernels, noise, lines, r, m);
+    m.averaged.push_back(2.0 * static_cast<double>(neighbours) + 1);
+    if (neighbours > 0) {
+      measure_averaged(image, full_width, kClipped, neighbours, r, lines, m);
+      continue;
+    }
+    for (std::size_t i = r.begin; i < r.end; ++i) {
+      const Crossing<T> c = crossing_at(image, lines.points[i]);
+      set_measures(measure_profile(c.line, c.centre, profile_reach(full_width, c.cosine)), c.cosine, kClipped,
+                   i, lines, m);
+    }
   }
 }
 
-template void measure_points<std::uint8_t>(ImageView8, const DerivativeKernels&, LineSet&,
-                                           std::vector<float>&);
-template void measure_points<std::uint16_t>(ImageView16, const DerivativeKernels&, LineSet&,
-                                            std::vector<float>&);
+template void measure_points<std::uint8_t>(ImageView8, const DerivativeKernels&, double, LineSet&,
+                                           LineMeasures&);
+template void measure_points<std::uint16_t>(ImageView16, const DerivativeKernels&, double, LineSet&,
+                                            LineMeasures&);
 
 namespace {
 
@@ -93,14 +156,6 @@ void smooth_measures(const DerivativeKernels& kernels, LineSet& lines, std::vect
       lines.points[r.begin + i].width = bar_width(means.foot / means.used, means.half / means.used);
       lines.points[r.begin + i].intensity = static_cast<float>(means.intensity / means.used);
     }
-  }
-}
-
-void predict_errors(const DerivativeKernels& kernels, double noise, LineSet& lines) {
-  for (StripePoint& p : lines.points) {
-    p.sigma_px = centre_sigma(kernels, noise, p.strength);
-    // A bridged point is as good as the curve between its neighbours: far worse than a measured one.
-    if ((p.flags & kStripeBridged) != 0) p.sigma_px = std::max(5 * p.sigma_px, 0.1 * kernels.sigma);
   }
 }
 

@@ -59,13 +59,16 @@ void collect(ImageView<T> image, const SeedRule& rule, SeedWorkspace& w) {
       const auto rank = static_cast<std::int32_t>((static_cast<std::uint64_t>(contrast) * scale) >> 16);
       w.found.push_back({x, y, std::min(rank, 255), row.centre[x] >= foreground});
     };
-    for (int x = 0; x < edge; ++x) add(x);
+    const std::uint64_t pattern = column_pattern(step, number);
+    const auto add_edge = [&](int x) {
+      if (((pattern >> (x % 64)) & 1) != 0) add(x);
+    };
+    for (int x = 0; x < edge; ++x) add_edge(x);
     if (mark_candidates(row, image.width, scan, w.candidate_masks.data()))
       for (std::size_t word = 0; word < w.candidate_masks.size(); ++word)
-        for (std::uint64_t bits = w.candidate_masks[word] & column_pattern(step, number); bits != 0;
-             bits &= bits - 1)
+        for (std::uint64_t bits = w.candidate_masks[word] & pattern; bits != 0; bits &= bits - 1)
           add(static_cast<int>(word * 64) + std::countr_zero(bits));
-    for (int x = std::max(image.width - scan.reach, edge); x < image.width; ++x) add(x);
+    for (int x = std::max(image.width - scan.reach, edge); x < image.width; ++x) add_edge(x);
   }
 }
 

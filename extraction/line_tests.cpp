@@ -21,12 +21,13 @@ struct Trial {
   double noise;
   const LineTestOptions& options;
   LineTestWorkspace& w;
-  double full_width;  ///< px, of the stripes of this image
+  double full_width;         ///< px, of the stripes of this image
+  double profile_noise = 0;  ///< grey levels, of the line on trial: less where its profiles were averaged
 
   /// Median of the contrasts at i - 1, i, i + 1 inside the range.
   double contrast(const LineRange& r, std::size_t i) const {
     const std::size_t a = i > r.begin ? i - 1 : i, b = i + 1 < r.end ? i + 1 : i;
-    return median_of_three(w.contrast[a], w.contrast[i], w.contrast[b]);
+    return median_of_three(w.measure.contrast[a], w.measure.contrast[i], w.measure.contrast[b]);
   }
   static double median_of_three(double a, double b, double c) {
     return std::max(std::min(a, b), std::min(std::max(a, b), c));
@@ -35,7 +36,7 @@ struct Trial {
 
 /// Whether the stripe itself is there, unsmoothed: the kernels see a line's end up to sigma beyond it.
 bool is_lit(const Trial& t, const LineRange& r, std::size_t i) {
-  return t.contrast(r, i) >= 2.5 * kTopNoise * t.noise;
+  return t.contrast(r, i) >= 2.5 * kTopNoise * t.profile_noise;
 }
 
 /// Cuts unlit and bridged points off both ends. A lit end has half the contrast of the line a little further
@@ -140,14 +141,6 @@ void mend_or_cut(Trial& t, LineSet& lines, const LineRange& whole) {
   keep(t, lines, {begin, r.end});
 }
 
-double line_length(const LineSet& lines, const LineRange& r) {
-  double length = 0;
-  for (std::size_t i = r.begin + 1; i < r.end; ++i)
-    length +=
-        std::hypot(lines.points[i].x - lines.points[i - 1].x, lines.points[i].y - lines.points[i - 1].y);
-  return length;
-}
-
 /// The intensity that a quarter of the points exceed: half of a line over a checkerboard lies on black
 /// squares.
 double typical_intensity(Trial& t, const LineSet& lines, const LineRange& r) {
@@ -160,17 +153,28 @@ double typical_intensity(Trial& t, const LineSet& lines, const LineRange& r) {
   return *upper;
 }
 
+LineFacts facts_of(Trial& t, const LineSet& lines, const LineRange& r) {
+  LineFacts facts;
+  for (std::size_t i = r.begin; i < r.end; ++i) {
+    const StripePoint &p = lines.points[i], &before = lines.points[i > r.begin ? i - 1 : i];
+    const double dx = p.x - before.x, dy = p.y - before.y;
+    facts.length += std::sqrt(dx * dx + dy * dy);
+    facts.mean_strength += p.strength;
+  }
+  facts.mean_strength /= static_cast<double>(r.size());
+  facts.width = median_width(t, lines, r);
+  facts.intensity = typical_intensity(t, lines, r);
+  facts.bridged_share = flagged_share(lines, r, kStripeBridged);
+  facts.odd_share = flagged_share(lines, r, kStripeBridged | kStripeAsymmetric);
+  return facts;
+}
+
 /// Length and width tests, which need no other line; a short line has to be the more regular.
-bool is_stripe_like(Trial& t, const LineSet& lines, const LineRange& r) {
-  const double length = line_length(lines, r), width = median_width(t, lines, r);
-  if (length < t.options.min_length * t.full_width) return false;
-  std::size_t measured = 0;
-  for (std::size_t i = r.begin; i < r.end; ++i)
-    measured += (lines.points[i].flags & kStripeBridged) == 0 ? 1U : 0U;
-  if (2 * measured < r.size()) return false;
-  const double ratio = std::max(width, 1e-3) / t.full_width;
+bool is_stripe_like(const Trial& t, const LineFacts& line) {
+  if (line.length < t.options.min_length * t.full_width || line.bridged_share > 0.5) return false;
+  const double ratio = std::max(line.width, 1e-3) / t.full_width;
   const double most =
-      length < 12 * t.full_width ? 0.75 * t.options.max_width_ratio : t.options.max_width_ratio;
+      line.length < 12 * t.full_width ? 0.75 * t.options.max_width_ratio : t.options.max_width_ratio;
   return ratio < most && 1.0 / ratio < 1.5 * most;
 }
 
@@ -180,31 +184,47 @@ struct Reference {
   double width = 0;      ///< px, mean over the lines at least half as bright, weighted by their length
 };
 
-Reference strong_stripe(Trial& t, const LineSet& lines) {
+Reference strong_stripe(const Trial& t) {
   const double full_length = 3 * t.options.min_length * t.full_width;
   Reference reference;
-  for (const LineRange& r : lines.lines)
+  for (const LineFacts& line : t.w.facts)
     reference.intensity =
-        std::max(reference.intensity,
-                 typical_intensity(t, lines, r) * std::min(1.0, line_length(lines, r) / full_length));
+        std::max(reference.intensity, line.intensity * std::min(1.0, line.length / full_length));
   double sum = 0, weights = 0;
-  for (const LineRange& r : lines.lines) {
-    if (typical_intensity(t, lines, r) < 0.5 * reference.intensity) continue;
-    sum += median_width(t, lines, r) * static_cast<double>(r.size());
-    weights += static_cast<double>(r.size());
+  for (const LineFacts& line : t.w.facts) {
+    if (line.intensity < 0.5 * reference.intensity) continue;
+    sum += line.width * line.length;
+    weights += line.length;
   }
   reference.width = weights > 0 ? sum / weights : t.full_width;
   return reference;
 }
 
 /// Brightness against the strong lines: weak lines have to be regular and as wide as the strong ones.
-bool is_bright_enough(Trial& t, const LineSet& lines, const LineRange& r, const Reference& reference) {
-  const double intensity = typical_intensity(t, lines, r), share = intensity / reference.intensity;
-  if (intensity < t.options.min_contrast_to_noise * t.noise || share < t.options.min_contrast) return false;
+bool is_bright_enough(const Trial& t, const LineFacts& line, const Reference& reference) {
+  const double share = line.intensity / reference.intensity;
+  // Single pixels of a wide stripe may drown in noise that its ridge stands out of.
+  const double visible = t.options.min_contrast_to_noise * t.noise / std::max(1.0, t.kernels.sigma);
+  const double strength_noise = t.noise * t.kernels.curvature_gain;
+  if (line.intensity < visible || line.mean_strength < 5 * strength_noise || share < t.options.min_contrast)
+    return false;
   if (share > t.options.clear_contrast) return true;
-  const double ratio = median_width(t, lines, r) / reference.width;
+  const double ratio = line.width / reference.width;
   // Bridges and uneven flanks are rare on a stripe, frequent on stains and edges.
-  return flagged_share(lines, r, kStripeBridged | kStripeAsymmetric) < 0.2 && ratio > 0.65 && ratio < 1.5;
+  return line.odd_share < 0.2 && ratio > 0.65 && ratio < 1.5;
+}
+
+/// Removes the lines (and their facts) that fail.
+template <class Test>
+void keep_if(LineSet& lines, std::vector<LineFacts>& facts, const Test& test) {
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < lines.lines.size(); ++k) {
+    if (!test(facts[k])) continue;
+    lines.lines[kept] = lines.lines[k];
+    facts[kept++] = facts[k];
+  }
+  lines.lines.resize(kept);
+  facts.resize(kept);
 }
 
 }  // namespace
@@ -213,14 +233,19 @@ template <class T>
 void test_lines(ImageView<T> image, const DerivativeKernels& kernels, double noise,
                 const LineTestOptions& options, LineTestWorkspace& workspace, LineSet& lines) {
   Trial trial{kernels, noise, options, workspace, 2 * std::numbers::sqrt3 * kernels.sigma};
-  measure_points(image, kernels, lines, workspace.contrast);
+  measure_points(image, kernels, noise, lines, workspace.measure);
   workspace.kept.clear();
-  for (const LineRange& r : lines.lines) mend_or_cut(trial, lines, r);
+  for (std::size_t k = 0; k < lines.lines.size(); ++k) {
+    trial.profile_noise = noise / std::sqrt(workspace.measure.averaged[k]);
+    mend_or_cut(trial, lines, lines.lines[k]);
+  }
   std::swap(lines, workspace.kept);
-  std::erase_if(lines.lines, [&](const LineRange& r) { return !is_stripe_like(trial, lines, r); });
-  const Reference reference = strong_stripe(trial, lines);
-  std::erase_if(lines.lines,
-                [&](const LineRange& r) { return !is_bright_enough(trial, lines, r, reference); });
+  workspace.facts.clear();
+  for (const LineRange& r : lines.lines) workspace.facts.push_back(facts_of(trial, lines, r));
+  keep_if(lines, workspace.facts, [&](const LineFacts& line) { return is_stripe_like(trial, line); });
+  const Reference reference = strong_stripe(trial);
+  keep_if(lines, workspace.facts,
+          [&](const LineFacts& line) { return is_bright_enough(trial, line, reference); });
 }
 
 template void test_lines<std::uint8_t>(ImageView8, const DerivativeKernels&, double, const LineTestOptions&,

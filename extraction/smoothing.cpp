@@ -12,8 +12,8 @@ namespace lightstripe {
 namespace {
 
 constexpr double kNarrowest = 6;   // reach in sigmas; below it neighbours repeat the point's own noise
-constexpr int kDoublings = 3;      // 6, 12 and 24 sigmas
-constexpr double kMostMisfit = 2;  // mean square of some 5 independent differences: exceeded by noise in 8 %
+constexpr int kDoublings = 4;      // 6, 12, 24 and 48 sigmas
+constexpr double kMostMisfit = 3;  // mean square of some 5 independent differences: exceeded by noise in 1 %
 
 using Estimate = SmoothingWorkspace::Estimate;
 
@@ -52,7 +52,8 @@ void smooth_segment(std::span<StripePoint> points, double sigma, SmoothingWorksp
       w.misfit[i + 1] = w.misfit[i] + across * across / expected;
     }
     for (std::size_t i = 0; i < points.size(); ++i) {
-      const std::size_t first = i > reach ? i - reach : 0, end = std::min(points.size(), i + reach + 1);
+      const std::size_t first = i > 2 * reach ? i - 2 * reach : 0,
+                        end = std::min(points.size(), i + 2 * reach + 1);
       const double mean = (w.misfit[end] - w.misfit[first]) / static_cast<double>(end - first);
       const bool grows = w.current[i].growing && mean < kMostMisfit;
       if (grows && w.wider[i].variance < w.current[i].variance) w.current[i] = w.wider[i];
