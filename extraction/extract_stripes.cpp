@@ -102,7 +102,8 @@ void find_lines(const Run<T>& run) {
 /// Median width of the brighter measured points; nothing without points.
 std::optional<double> found_width(ExtractionWorkspace& w) {
   float brightest = 0;
-  for (const StripePoint& p : w.lines.points) brightest = std::max(brightest, p.intensity);
+  for (const LineRange& r : w.lines.lines)
+    for (std::size_t i = r.begin; i < r.end; ++i) brightest = std::max(brightest, w.lines.points[i].intensity);
   w.values.clear();
   for (const LineRange& r : w.lines.lines)
     for (std::size_t i = r.begin; i < r.end; ++i) {

@@ -72,15 +72,7 @@ bool bridge_stretch(std::vector<StripePoint>& points, std::size_t before, std::s
 /// One kept stretch of a line.
 void keep(Trial& t, const LineSet& lines, LineRange r) {
   r = trimmed(t, lines, r);
-  if (r.size() < 3) return;
-  LineSet& kept = t.w.kept;
-  const std::size_t begin = kept.points.size();
-  kept.points.insert(kept.points.end(), lines.points.begin() + static_cast<std::ptrdiff_t>(r.begin),
-                     lines.points.begin() + static_cast<std::ptrdiff_t>(r.end));
-  kept.half_level_widths.insert(kept.half_level_widths.end(),
-                                lines.half_level_widths.begin() + static_cast<std::ptrdiff_t>(r.begin),
-                                lines.half_level_widths.begin() + static_cast<std::ptrdiff_t>(r.end));
-  kept.lines.push_back({begin, kept.points.size()});
+  if (r.size() >= 3) t.w.kept.push_back(r);
 }
 
 /// Share of the range's points that have one of these flags.
@@ -239,7 +231,7 @@ void test_lines(ImageView<T> image, const DerivativeKernels& kernels, double noi
     trial.profile_noise = noise / std::sqrt(workspace.measure.averaged[k]);
     mend_or_cut(trial, lines, lines.lines[k]);
   }
-  std::swap(lines, workspace.kept);
+  std::swap(lines.lines, workspace.kept);
   workspace.facts.clear();
   for (const LineRange& r : lines.lines) workspace.facts.push_back(facts_of(trial, lines, r));
   keep_if(lines, workspace.facts, [&](const LineFacts& line) { return is_stripe_like(trial, line); });

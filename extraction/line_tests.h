@@ -58,7 +58,7 @@ struct LineTestWorkspace {
   std::vector<float> scratch;
   std::vector<BadStretch> stretches;
   std::vector<LineFacts> facts;
-  LineSet kept;
+  std::vector<LineRange> kept;
 };
 
 /// Measures width, intensity and flags of every point, then drops and cuts lines as said above. Lines of one
