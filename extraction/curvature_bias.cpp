@@ -9,35 +9,73 @@
 #include "extraction/local_fit.h"
 
 namespace lightstripe {
+namespace {
+
+struct Shift {
+  double x = 0, y = 0;
+};
+
+/// The way from one smoothed point to the true line.
+class BiasEstimate {
+ public:
+  BiasEstimate(double sigma, const std::vector<StripePoint>& points)
+      : sigma_(sigma), half_variance_(0.5 * (sigma * sigma + 1.0 / 12)), points_(points), fitter_(points) {}
+
+  Shift at(std::size_t i, std::size_t reach) {
+    const LocalFit fit = fitter_.at(i, reach);
+    if (reach != reach_) gain_ = local_fit_gains(reach_ = reach).curvature;
+    // Neighbouring points share their noise over 2 sqrt(pi) sigma.
+    const double shared = std::max(1.0, 3.545 * sigma_ / std::sqrt(fit.squared_step));
+    const double sigma_px = points_[i].sigma_px;
+    const double variance =
+        sigma_px * sigma_px * gain_ * gain_ * shared / (fit.squared_step * fit.squared_step);
+    const double square = fit.curvature_x * fit.curvature_x + fit.curvature_y * fit.curvature_y;
+    if (square <= 0) return {};
+    const double weight = square / (square + 9 * variance);
+    // A bend sharper than the kernel is a corner, where the series behind the formula ends.
+    const double size = half_variance_ * std::sqrt(square), limit = 0.25 * sigma_;
+    const double shift = weight * half_variance_ * (size > limit ? limit / size : 1.0);
+    return {-shift * fit.curvature_x, -shift * fit.curvature_y};
+  }
+
+ private:
+  double sigma_, half_variance_;
+  const std::vector<StripePoint>& points_;
+  LocalFitter fitter_;
+  std::size_t reach_ = 0;
+  double gain_ = 0;
+};
+
+}  // namespace
 
 void correct_curvature_bias(const DerivativeKernels& kernels, LineSet& lines,
                             std::vector<StripePoint>& scratch, std::vector<float>& joined) {
   const auto most = static_cast<std::size_t>(std::lround(3.0 * kernels.sigma + 2));
+  // The bend of a line that was smoothed over sigma changes little within one.
+  const auto stride = static_cast<std::size_t>(std::max(1.0, kernels.sigma));
   constexpr std::size_t kLeast = 6;
-  const double half_variance = 0.5 * (kernels.sigma * kernels.sigma + 1.0 / 12);
   for (const LineRange& r : lines.lines) {
     scratch.assign(lines.points.begin() + static_cast<std::ptrdiff_t>(r.begin),
                    lines.points.begin() + static_cast<std::ptrdiff_t>(r.end));
     count_joined(scratch, joined);
-    LocalFitter fitter(scratch);
-    std::size_t gain_reach = 0;
-    double gain = 0;
+    BiasEstimate bias(kernels.sigma, scratch);
+    Shift shift;
+    std::size_t valid_until = 0;
     for (std::size_t i = 0; i < scratch.size(); ++i) {
       const std::size_t reach = joined_reach(joined, i, most);
-      if (reach < kLeast) continue;
-      const LocalFit fit = fitter.at(i, reach);
-      // Neighbouring points share their noise over 2 sqrt(pi) sigma.
-      const double shared = std::max(1.0, 3.545 * kernels.sigma / std::sqrt(fit.squared_step));
-      if (reach != gain_reach) gain = local_fit_gains(gain_reach = reach).curvature;
-      const double variance = scratch[i].sigma_px * scratch[i].sigma_px * gain * gain * shared /
-                              (fit.squared_step * fit.squared_step);
-      const double square = fit.curvature_x * fit.curvature_x + fit.curvature_y * fit.curvature_y;
-      const double weight = square / (square + 9 * variance);
-      // A bend sharper than the kernel is a corner, where the series behind the formula ends.
-      const double size = half_variance * std::sqrt(square), limit = 0.25 * kernels.sigma;
-      const double shift = weight * half_variance * (size > limit ? limit / size : 1.0);
-      lines.points[r.begin + i].x -= shift * fit.curvature_x;
-      lines.points[r.begin + i].y -= shift * fit.curvature_y;
+      if (reach < kLeast) {
+        valid_until = 0;
+        continue;
+      }
+      if (i >= valid_until || reach != most) {
+        // One estimate serves `stride` points, from their middle.
+        const std::size_t middle = i + stride / 2;
+        const bool central = reach == most && middle < scratch.size() && joined_reach(joined, middle, most) == most;
+        shift = bias.at(central ? middle : i, reach);
+        valid_until = i + stride;
+      }
+      lines.points[r.begin + i].x += shift.x;
+      lines.points[r.begin + i].y += shift.y;
     }
   }
 }

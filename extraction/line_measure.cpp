@@ -86,6 +86,38 @@ void measure_averaged(ImageView<T> image, double full_width, double clipped_leve
   }
 }
 
+/// The points between two measured ones.
+void fill_between(std::size_t a, std::size_t b, LineSet& lines, LineMeasures& m) {
+  const StripePoint p = lines.points[a], q = lines.points[b];
+  const auto flags = static_cast<std::uint8_t>((p.flags | q.flags) & (kStripeSaturated | kStripeAsymmetric));
+  for (std::size_t i = a + 1; i < b; ++i) {
+    const float u = static_cast<float>(i - a) / static_cast<float>(b - a), v = 1 - u;
+    StripePoint& between = lines.points[i];
+    between.width = double{v} * p.width + double{u} * q.width;
+    between.intensity = v * p.intensity + u * q.intensity;
+    between.flags |= flags;
+    m.contrast[i] = v * m.contrast[a] + u * m.contrast[b];
+    lines.half_level_widths[i] = v * lines.half_level_widths[a] + u * lines.half_level_widths[b];
+  }
+}
+
+/// The points of one line by their own profiles: all of them near its ends, where each counts, further in one in sigma.
+template <class T>
+void measure_singly(ImageView<T> image, double sigma, double full_width, double clipped_level, const LineRange& r,
+                    LineSet& lines, LineMeasures& m) {
+  const auto edge = static_cast<std::size_t>(4 * sigma);
+  const auto stride = static_cast<std::size_t>(std::clamp(static_cast<int>(sigma), 1, 4));
+  std::size_t last = r.begin;
+  for (std::size_t i = r.begin; i < r.end;) {
+    const Crossing<T> c = crossing_at(image, lines.points[i]);
+    set_measures(measure_profile(c.line, c.centre, profile_reach(full_width, c.cosine)), c.cosine, clipped_level, i,
+                 lines, m);
+    if (i > last + 1) fill_between(last, i, lines, m);
+    last = i;
+    i += i >= r.begin + edge && i + edge + stride < r.end ? stride : 1;
+  }
+}
+
 }  // namespace
 
 double median_of(std::vector<float>& values) {
@@ -110,11 +142,7 @@ void measure_points(ImageView<T> image, const DerivativeKernels& kernels, double
       measure_averaged(image, full_width, kClipped, neighbours, r, lines, m);
       continue;
     }
-    for (std::size_t i = r.begin; i < r.end; ++i) {
-      const Crossing<T> c = crossing_at(image, lines.points[i]);
-      set_measures(measure_profile(c.line, c.centre, profile_reach(full_width, c.cosine)), c.cosine, kClipped,
-                   i, lines, m);
-    }
+    measure_singly(image, kernels.sigma, full_width, kClipped, r, lines, m);
   }
 }
 

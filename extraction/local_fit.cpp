@@ -34,20 +34,6 @@ double local_fit_variance(std::size_t reach, double offset) {
   return (p.s4 - 2 * square * p.s2 + square * square * p.n) / determinant + square / p.s2;
 }
 
-void LocalFitter::Sums::add(double k, double value) {
-  s0 += value;
-  s1 += k * value;
-  s2 += k * k * value;
-}
-
-/// The window moves on by one: every k falls by one, `left` leaves, `right` comes in at k = reach.
-void LocalFitter::Sums::slide(double left, double right, double reach) {
-  add(-reach, -left);
-  s2 += s0 - 2 * s1;
-  s1 -= s0;
-  add(reach, right);
-}
-
 void LocalFitter::start(std::size_t i, std::size_t reach) {
   if (reach != reach_) {
     const Powers p(reach);
@@ -65,19 +51,24 @@ void LocalFitter::start(std::size_t i, std::size_t reach) {
   slides_ = 0;
 }
 
-LocalFit LocalFitter::at(std::size_t i, std::size_t reach) {
-  constexpr std::size_t kFreshAfter = 64;  // slides, before rounding errors or a far origin could count
-  const auto l = static_cast<double>(reach);
-  if (reach == reach_ && i == last_ + 1 && slides_ < kFreshAfter) {
-    const StripePoint &left = points_[i - 1 - reach], &right = points_[i + reach];
+void LocalFitter::slide_to(std::size_t i) {
+  const auto l = static_cast<double>(reach_);
+  for (; last_ < i; ++last_, ++slides_) {
+    const StripePoint &left = points_[last_ - reach_], &right = points_[last_ + 1 + reach_];
     x_.slide(left.x - origin_x_, right.x - origin_x_, l);
     y_.slide(left.y - origin_y_, right.y - origin_y_, l);
-    ++slides_;
+  }
+}
+
+LocalFit LocalFitter::at(std::size_t i, std::size_t reach) {
+  constexpr std::size_t kFreshAfter = 64;  // slides, before rounding errors or a far origin could count
+  if (reach == reach_ && i >= last_ && i - last_ < reach && slides_ < kFreshAfter) {
+    slide_to(i);
   } else {
     start(i, reach);
+    last_ = i;
+    reach_ = reach;
   }
-  last_ = i;
-  reach_ = reach;
   const double qx = (x_.s2 - f_.mean_square * x_.s0) * f_.scale,
                qy = (y_.s2 - f_.mean_square * y_.s0) * f_.scale;
   LocalFit fit;

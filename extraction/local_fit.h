@@ -34,19 +34,30 @@ double local_fit_variance(std::size_t reach, double offset);
 class LocalFitter {
  public:
   explicit LocalFitter(std::span<const StripePoint> points) : points_(points) {}
-  /// The fit around point i; costs little where i is the successor of the last i at the same reach.
+  /// The fit around point i; costs little where i follows the last i closely, at the same reach.
   LocalFit at(std::size_t i, std::size_t reach);
 
  private:
   struct Sums {
     double s0 = 0, s1 = 0, s2 = 0;  ///< of value, k value, k^2 value
-    void slide(double left, double right, double reach);
-    void add(double k, double value);
+    void add(double k, double value) {
+      s0 += value;
+      s1 += k * value;
+      s2 += k * k * value;
+    }
+    /// The window moves on by one: every k falls by one, `left` leaves, `right` comes in at k = reach.
+    void slide(double left, double right, double reach) {
+      add(-reach, -left);
+      s2 += s0 - 2 * s1;
+      s1 -= s0;
+      add(reach, right);
+    }
   };
   struct Factors {
     double mean_square = 0, scale = 0, inverse_n = 0, inverse_s2 = 0;
   };
   void start(std::size_t i, std::size_t reach);
+  void slide_to(std::size_t i);
 
   std::span<const StripePoint> points_;
   std::size_t last_ = 0, reach_ = 0;  ///< reach_ = 0: no window yet
