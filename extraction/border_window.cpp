@@ -18,14 +18,14 @@ struct ShiftedLine {
   const T* first;
   std::ptrdiff_t step;
   int count;
-  int whole;    ///< floor of the shift
-  double part;  ///< the rest
+  int whole;   ///< floor of the shift
+  float part;  ///< the rest
 
   ShiftedLine(const T* line, std::ptrdiff_t line_step, int line_count, double shift)
       : first(line), step(line_step), count(line_count) {
     const double bounded = std::clamp(shift, -1.0 * line_count, 1.0 * line_count);
     whole = static_cast<int>(std::floor(bounded));
-    part = bounded - whole;
+    part = static_cast<float>(bounded - whole);
   }
   T operator()(int place) const {
     const int at = place + whole;

@@ -11,14 +11,12 @@
 namespace lightstripe {
 namespace {
 
-struct Shift {
-  double x = 0, y = 0;
-};
+using Shift = BendWorkspace::Shift;
 
 /// The way from one smoothed point to the true line.
 class BiasEstimate {
  public:
-  BiasEstimate(double sigma, const std::vector<StripePoint>& points)
+  BiasEstimate(double sigma, std::span<const StripePoint> points)
       : sigma_(sigma), half_variance_(0.5 * (sigma * sigma + 1.0 / 12)), points_(points), fitter_(points) {}
 
   Shift at(std::size_t i, std::size_t reach) {
@@ -40,7 +38,7 @@ class BiasEstimate {
 
  private:
   double sigma_, half_variance_;
-  const std::vector<StripePoint>& points_;
+  std::span<const StripePoint> points_;
   LocalFitter fitter_;
   std::size_t reach_ = 0;
   double gain_ = 0;
@@ -48,21 +46,20 @@ class BiasEstimate {
 
 }  // namespace
 
-void correct_curvature_bias(const DerivativeKernels& kernels, LineSet& lines,
-                            std::vector<StripePoint>& scratch, std::vector<float>& joined) {
+void correct_curvature_bias(const DerivativeKernels& kernels, LineSet& lines, BendWorkspace& w) {
   const auto most = static_cast<std::size_t>(std::lround(3.0 * kernels.sigma + 2));
   // The bend of a line that was smoothed over sigma changes little within one.
   const auto stride = static_cast<std::size_t>(std::max(1.0, kernels.sigma));
   constexpr std::size_t kLeast = 6;
   for (const LineRange& r : lines.lines) {
-    scratch.assign(lines.points.begin() + static_cast<std::ptrdiff_t>(r.begin),
-                   lines.points.begin() + static_cast<std::ptrdiff_t>(r.end));
-    count_joined(scratch, joined);
-    BiasEstimate bias(kernels.sigma, scratch);
+    const std::span<StripePoint> points(lines.points.data() + r.begin, r.size());
+    count_joined(points, w.joined);
+    w.shifts.assign(points.size(), {});
+    BiasEstimate bias(kernels.sigma, points);
     Shift shift;
     std::size_t valid_until = 0;
-    for (std::size_t i = 0; i < scratch.size(); ++i) {
-      const std::size_t reach = joined_reach(joined, i, most);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const std::size_t reach = joined_reach(w.joined, i, most);
       if (reach < kLeast) {
         valid_until = 0;
         continue;
@@ -70,12 +67,16 @@ void correct_curvature_bias(const DerivativeKernels& kernels, LineSet& lines,
       if (i >= valid_until || reach != most) {
         // One estimate serves `stride` points, from their middle.
         const std::size_t middle = i + stride / 2;
-        const bool central = reach == most && middle < scratch.size() && joined_reach(joined, middle, most) == most;
+        const bool central =
+            reach == most && middle < points.size() && joined_reach(w.joined, middle, most) == most;
         shift = bias.at(central ? middle : i, reach);
         valid_until = i + stride;
       }
-      lines.points[r.begin + i].x += shift.x;
-      lines.points[r.begin + i].y += shift.y;
+      w.shifts[i] = shift;
+    }
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      points[i].x += w.shifts[i].x;
+      points[i].y += w.shifts[i].y;
     }
   }
 }

@@ -32,7 +32,11 @@ template <class T>
 class Follower {
  public:
   Follower(const RidgeFinder<T>& finder, ExclusionMask& mask, LineLabels& labels)
-      : finder_(finder), limits_(finder.limits), mask_(mask), labels_(labels), previous_(labels.first),
+      : finder_(finder),
+        limits_(finder.limits),
+        mask_(mask),
+        labels_(labels),
+        previous_(labels.first),
         stride_(evaluation_stride(finder.kernels.sigma)) {
     renew_label();
   }
@@ -244,7 +248,8 @@ bool Follower<T>::stride(Tip& tip, std::vector<StripePoint>& out) {
   const auto found = finder_.find(ahead);
   if (!found || found->clarity != RidgeClarity::kClear ||
       found->direction.column_wise() != tip.last.direction.column_wise() ||
-      tip.last.direction.column_wise() != tip.direction.column_wise() || found->strength < 0.5 * tip.recent_strength)
+      tip.last.direction.column_wise() != tip.direction.column_wise() ||
+      found->strength < 0.5 * tip.recent_strength)
     return false;
   append_between(tip.last, *found, stride_, out);
   advance(tip, *found, out);
@@ -289,7 +294,8 @@ bool Follower<T>::run(const RidgePlace& start, std::vector<StripePoint>& out) {
   while (out.size() - before < most) {
     if (!go_on(before, tip, out)) return false;
     const std::size_t steps = out.size() - before;
-    if (steps > 12 && std::abs(tip.x - start.x) <= stride_ && std::abs(tip.y - start.y) <= stride_) return true;
+    if (steps > 12 && std::abs(tip.x - start.x) <= stride_ && std::abs(tip.y - start.y) <= stride_)
+      return true;
     // Curling up on a spot instead of going on.
     if (steps > kWindow) {
       const StripePoint& past = out[out.size() - 1 - kWindow];

@@ -103,7 +103,8 @@ void find_lines(const Run<T>& run) {
 std::optional<double> found_width(ExtractionWorkspace& w) {
   float brightest = 0;
   for (const LineRange& r : w.lines.lines)
-    for (std::size_t i = r.begin; i < r.end; ++i) brightest = std::max(brightest, w.lines.points[i].intensity);
+    for (std::size_t i = r.begin; i < r.end; ++i)
+      brightest = std::max(brightest, w.lines.points[i].intensity);
   w.values.clear();
   for (const LineRange& r : w.lines.lines)
     for (std::size_t i = r.begin; i < r.end; ++i) {
@@ -193,10 +194,10 @@ bool has_ridges(ExtractionMethod method) {
 template <class T>
 void finish_lines(const Run<T>& run) {
   ExtractionWorkspace& w = run.w;
-  smooth_measures(w.kernels, w.lines, w.scratch);
+  smooth_measures(w.kernels, w.lines, w.values);
   predict_errors(run.image, w.kernels, run.facts.noise.full, w.lines, w.values);
   if (run.options.curvature_correction && has_ridges(run.options.method))
-    correct_curvature_bias(w.kernels, w.lines, w.scratch, w.values);
+    correct_curvature_bias(w.kernels, w.lines, w.bends);
   if (run.options.smoothing) smooth_along_lines(w.kernels, w.lines, w.smoothing);
 }
 

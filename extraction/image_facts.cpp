@@ -10,7 +10,7 @@ namespace lightstripe {
 
 template <class T>
 ImageFacts look_at(ImageView<T> image) {
-  constexpr double kEnoughPixels = 20000;
+  constexpr double kEnoughPixels = 16000;
   const double pixels = static_cast<double>(image.width) * image.height;
   const int thinning = std::max(1, static_cast<int>(pixels / kEnoughPixels));
   ImageFacts facts;

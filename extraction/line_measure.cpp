@@ -3,6 +3,7 @@
 #include "extraction/line_measure.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -47,10 +48,10 @@ void set_measures(const CrossProfile& profile, double cosine, double clipped_lev
 std::size_t averaging_reach(const DerivativeKernels& kernels, double noise, const LineSet& lines,
                             const LineRange& r, LineMeasures& m) {
   m.values.clear();
-  for (std::size_t i = r.begin; i < r.end; ++i) m.values.push_back(lines.points[i].strength);
-  const auto middle = m.values.begin() + static_cast<std::ptrdiff_t>(m.values.size() / 2);
-  std::nth_element(m.values.begin(), middle, m.values.end());
-  const double height = *middle / kernels.matched_strength(), ratio = 10 * noise / std::max(height, 1e-9);
+  for (std::size_t i = r.begin; i < r.end; i += sample_step(r))
+    m.values.push_back(static_cast<float>(lines.points[i].strength));
+  const double height = median_of(m.values) / kernels.matched_strength(),
+               ratio = 10 * noise / std::max(height, 1e-9);
   return static_cast<std::size_t>(std::min(0.5 * ratio * ratio, 3 * kernels.sigma));
 }
 
@@ -101,17 +102,18 @@ void fill_between(std::size_t a, std::size_t b, LineSet& lines, LineMeasures& m)
   }
 }
 
-/// The points of one line by their own profiles: all of them near its ends, where each counts, further in one in sigma.
+/// The points of one line by their own profiles: all of them near its ends, where each counts, further in one
+/// in sigma.
 template <class T>
-void measure_singly(ImageView<T> image, double sigma, double full_width, double clipped_level, const LineRange& r,
-                    LineSet& lines, LineMeasures& m) {
+void measure_singly(ImageView<T> image, double sigma, double full_width, double clipped_level,
+                    const LineRange& r, LineSet& lines, LineMeasures& m) {
   const auto edge = static_cast<std::size_t>(4 * sigma);
   const auto stride = static_cast<std::size_t>(std::clamp(static_cast<int>(sigma), 1, 4));
   std::size_t last = r.begin;
   for (std::size_t i = r.begin; i < r.end;) {
     const Crossing<T> c = crossing_at(image, lines.points[i]);
-    set_measures(measure_profile(c.line, c.centre, profile_reach(full_width, c.cosine)), c.cosine, clipped_level, i,
-                 lines, m);
+    set_measures(measure_profile(c.line, c.centre, profile_reach(full_width, c.cosine)), c.cosine,
+                 clipped_level, i, lines, m);
     if (i > last + 1) fill_between(last, i, lines, m);
     last = i;
     i += i >= r.begin + edge && i + edge + stride < r.end ? stride : 1;
@@ -153,36 +155,45 @@ template void measure_points<std::uint16_t>(ImageView16, const DerivativeKernels
 
 namespace {
 
-/// Sums over the measured points of a window that slides along a line.
+/// Sums over the measured points of a window that slides along a line. `values`: width, width at half the
+/// peak, intensity and 1 for measured points, all 0 for bridged ones; one after the other.
 struct SlidingMeans {
-  double foot = 0, half = 0, intensity = 0;
-  int used = 0;
+  static constexpr std::size_t kValues = 4;
+  std::array<float, kValues> sums{};
 
-  void add(const StripePoint& p, float half_width, int sign) {
-    if ((p.flags & kStripeBridged) != 0) return;
-    foot += sign * p.width;
-    half += sign * static_cast<double>(half_width);
-    intensity += sign * static_cast<double>(p.intensity);
-    used += sign;
+  void add(const float* values, float sign) {
+    for (std::size_t k = 0; k < kValues; ++k) sums[k] += sign * values[k];
   }
 };
 
+void collect_measures(const LineSet& lines, const LineRange& r, std::vector<float>& values) {
+  values.clear();
+  for (std::size_t i = r.begin; i < r.end; ++i) {
+    const StripePoint& p = lines.points[i];
+    const bool bridged = (p.flags & kStripeBridged) != 0;
+    // Grey levels of 16 bits in single precision: sums of sliding windows keep them to 0.1.
+    const float used = bridged ? 0.0F : 1.0F;
+    for (const float value : {static_cast<float>(p.width), lines.half_level_widths[i], p.intensity, 1.0F})
+      values.push_back(used * value);
+  }
+}
+
 }  // namespace
 
-void smooth_measures(const DerivativeKernels& kernels, LineSet& lines, std::vector<StripePoint>& scratch) {
+void smooth_measures(const DerivativeKernels& kernels, LineSet& lines, std::vector<float>& values) {
   const auto reach = static_cast<std::size_t>(std::lround(1.5 * kernels.sigma));
   for (const LineRange& r : lines.lines) {
-    scratch.assign(lines.points.begin() + static_cast<std::ptrdiff_t>(r.begin),
-                   lines.points.begin() + static_cast<std::ptrdiff_t>(r.end));
-    const float* half = lines.half_level_widths.data() + r.begin;
+    collect_measures(lines, r, values);
     SlidingMeans means;
     std::size_t first = 0, end = 0;
-    for (std::size_t i = 0; i < scratch.size(); ++i) {
-      for (; end < std::min(scratch.size(), i + reach + 1); ++end) means.add(scratch[end], half[end], +1);
-      for (; first + reach < i; ++first) means.add(scratch[first], half[first], -1);
-      if (means.used == 0) continue;
-      lines.points[r.begin + i].width = bar_width(means.foot / means.used, means.half / means.used);
-      lines.points[r.begin + i].intensity = static_cast<float>(means.intensity / means.used);
+    for (std::size_t i = 0; i < r.size(); ++i) {
+      for (; end < std::min(r.size(), i + reach + 1); ++end)
+        means.add(values.data() + end * SlidingMeans::kValues, 1.0F);
+      for (; first + reach < i; ++first) means.add(values.data() + first * SlidingMeans::kValues, -1.0F);
+      const auto& [foot, half, intensity, used] = means.sums;
+      if (used < 0.5F) continue;
+      lines.points[r.begin + i].width = bar_width(double{foot / used}, double{half / used});
+      lines.points[r.begin + i].intensity = intensity / used;
     }
   }
 }

@@ -35,7 +35,7 @@ bool are_neighbours(const StripePoint& a, const StripePoint& b) {
 template <class T>
 double noise_on_ridge(ImageView<T> image, const LineSet& lines, const LineRange& range,
                       double background_noise, std::vector<float>& scratch) {
-  constexpr std::size_t kLeast = 20, kEnough = 600;
+  constexpr std::size_t kLeast = 20, kEnough = 250;
   constexpr double kToSigma = 1.4826 / 2.449489743;  // of a normal; second differences have sqrt(6) sigma
   const std::size_t step = 1 + range.size() / kEnough;
   scratch.clear();
@@ -59,7 +59,8 @@ void predict_errors(ImageView<T> image, const DerivativeKernels& kernels, double
   for (const LineRange& r : lines.lines) {
     const double top = noise_on_ridge(image, lines, r, background_noise, scratch);
     scratch.clear();
-    for (std::size_t i = r.begin; i < r.end; ++i) scratch.push_back(lines.points[i].intensity);
+    for (std::size_t i = r.begin; i < r.end; i += sample_step(r))
+      scratch.push_back(lines.points[i].intensity);
     const double typical = std::max(1.0, double{median_of(scratch)});
     const double added = kFlankShare * std::max(0.0, top * top - background) / typical;
     for (std::size_t i = r.begin; i < r.end; ++i) {

@@ -17,11 +17,20 @@ namespace {
 /// Rows that are searched: thin stripes need each one, a line of w >= 7 px each fourth.
 int row_step(double sigma) { return std::clamp(static_cast<int>(sigma), 1, 4); }
 
-/// The columns taken in a row: as sparse as the rows, and staggered, so that lines along the columns are met.
-std::uint64_t column_pattern(int step, int row_number) {
-  if (step == 1) return ~0ULL;
-  const int shift = row_number % 4;
-  return step == 2 ? 0x5555555555555555ULL << (shift % 2) : 0x1111111111111111ULL << shift;
+/// The columns taken in a row, every so many from the offset on: as sparse as the rows, and staggered, so
+/// that lines along the columns are met.
+struct ColumnPattern {
+  int step, offset;
+  std::uint64_t bits() const {
+    const std::uint64_t first = step == 1 ? ~0ULL : step == 2 ? 0x5555555555555555ULL : 0x1111111111111111ULL;
+    return first << offset;
+  }
+  int first_from(int x) const { return x + (offset - x % step + step) % step; }
+};
+
+ColumnPattern column_pattern(int rows, int row_number) {
+  const int step = rows == 1 ? 1 : rows == 2 ? 2 : 4;
+  return {step, row_number % step};
 }
 
 template <class T>
@@ -59,16 +68,14 @@ void collect(ImageView<T> image, const SeedRule& rule, SeedWorkspace& w) {
       const auto rank = static_cast<std::int32_t>((static_cast<std::uint64_t>(contrast) * scale) >> 16);
       w.found.push_back({x, y, std::min(rank, 255), row.centre[x] >= foreground});
     };
-    const std::uint64_t pattern = column_pattern(step, number);
-    const auto add_edge = [&](int x) {
-      if (((pattern >> (x % 64)) & 1) != 0) add(x);
-    };
-    for (int x = 0; x < edge; ++x) add_edge(x);
+    const ColumnPattern pattern = column_pattern(step, number);
+    for (int x = pattern.offset; x < edge; x += pattern.step) add(x);
     if (mark_candidates(row, image.width, scan, w.candidate_masks.data()))
       for (std::size_t word = 0; word < w.candidate_masks.size(); ++word)
-        for (std::uint64_t bits = w.candidate_masks[word] & pattern; bits != 0; bits &= bits - 1)
+        for (std::uint64_t bits = w.candidate_masks[word] & pattern.bits(); bits != 0; bits &= bits - 1)
           add(static_cast<int>(word * 64) + std::countr_zero(bits));
-    for (int x = std::max(image.width - scan.reach, edge); x < image.width; ++x) add_edge(x);
+    const int right = std::max(image.width - scan.reach, edge);
+    for (int x = pattern.first_from(right); x < image.width; x += pattern.step) add(x);
   }
 }
 

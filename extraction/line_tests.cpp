@@ -54,7 +54,7 @@ LineRange trimmed(const Trial& t, const LineSet& lines, LineRange r) {
 
 double median_width(Trial& t, const LineSet& lines, const LineRange& r) {
   t.w.scratch.clear();
-  for (std::size_t i = r.begin; i < r.end; ++i)
+  for (std::size_t i = r.begin; i < r.end; i += sample_step(r))
     if ((lines.points[i].flags & kStripeBridged) == 0)
       t.w.scratch.push_back(static_cast<float>(lines.points[i].width));
   return median_of(t.w.scratch);
@@ -137,7 +137,7 @@ void mend_or_cut(Trial& t, LineSet& lines, const LineRange& whole) {
 /// squares.
 double typical_intensity(Trial& t, const LineSet& lines, const LineRange& r) {
   t.w.scratch.clear();
-  for (std::size_t i = r.begin; i < r.end; ++i)
+  for (std::size_t i = r.begin; i < r.end; i += sample_step(r))
     if ((lines.points[i].flags & kStripeBridged) == 0) t.w.scratch.push_back(lines.points[i].intensity);
   if (t.w.scratch.empty()) return 0;
   const auto upper = t.w.scratch.begin() + static_cast<std::ptrdiff_t>(t.w.scratch.size() * 3 / 4);
@@ -146,18 +146,26 @@ double typical_intensity(Trial& t, const LineSet& lines, const LineRange& r) {
 }
 
 LineFacts facts_of(Trial& t, const LineSet& lines, const LineRange& r) {
+  constexpr std::size_t kChord = 4;  // points; shorter chords would add up the noise as well
   LineFacts facts;
-  for (std::size_t i = r.begin; i < r.end; ++i) {
-    const StripePoint &p = lines.points[i], &before = lines.points[i > r.begin ? i - 1 : i];
-    const double dx = p.x - before.x, dy = p.y - before.y;
+  for (std::size_t i = r.begin; i + 1 < r.end; i += kChord) {
+    const StripePoint &p = lines.points[i], &next = lines.points[std::min(i + kChord, r.end - 1)];
+    const double dx = next.x - p.x, dy = next.y - p.y;
     facts.length += std::sqrt(dx * dx + dy * dy);
+  }
+  std::size_t bridged = 0, odd = 0;
+  for (std::size_t i = r.begin; i < r.end; ++i) {
+    const StripePoint& p = lines.points[i];
+    bridged += (p.flags & kStripeBridged) != 0 ? 1U : 0U;
+    odd += (p.flags & (kStripeBridged | kStripeAsymmetric)) != 0 ? 1U : 0U;
     facts.mean_strength += p.strength;
   }
-  facts.mean_strength /= static_cast<double>(r.size());
+  const auto count = static_cast<double>(r.size());
+  facts.mean_strength /= count;
+  facts.bridged_share = static_cast<double>(bridged) / count;
+  facts.odd_share = static_cast<double>(odd) / count;
   facts.width = median_width(t, lines, r);
   facts.intensity = typical_intensity(t, lines, r);
-  facts.bridged_share = flagged_share(lines, r, kStripeBridged);
-  facts.odd_share = flagged_share(lines, r, kStripeBridged | kStripeAsymmetric);
   return facts;
 }
 

@@ -7,6 +7,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "extraction/curvature_bias.h"
 #include "extraction/derivative_planes.h"
 #include "extraction/direction_guided.h"
 #include "extraction/grey_value_lines.h"
@@ -26,7 +27,7 @@ struct ExtractionWorkspace {
   WholeImageWorkspace whole_image;
   GreyValueWorkspace grey_values;
   SmoothingWorkspace smoothing;
-  std::vector<StripePoint> scratch;
+  BendWorkspace bends;
   std::vector<float> values;
   std::vector<Stripe> spare;  ///< memory of stripes that the last results did not need
 
