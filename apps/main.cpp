@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <glog/logging.h>
+
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
@@ -52,6 +54,7 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
   // OpenCV's own lines on stderr say less than our one error line, and would stand before it.
   cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
+  FLAGS_minloglevel = google::GLOG_FATAL;  // Ceres tells of steps that it then takes back
   try {
     return run(argc, argv);
   } catch (const lightstripe::Error& error) {
