@@ -31,12 +31,25 @@ std::string describe_views(const std::vector<ViewResidual>& views) {
   return text;
 }
 
+std::string describe_lenses(const std::vector<LensChoice>& lenses) {
+  std::string text;
+  for (const auto& choice : lenses) {
+    text += fmt::format("{}: lens model {}", choice.sensor, enum_name(choice.lens));
+    std::string tried;
+    for (const auto& trial : choice.trials)
+      tried += fmt::format("{}{} {:.4f}", tried.empty() ? "" : ", ", enum_name(trial.lens), trial.held_out_rms_px);
+    text += tried.empty() ? "\n" : fmt::format(" (error on views left out, px: {})\n", tried);
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string describe_calibration(const SessionObservations& seen, const CalibrationResult& result) {
   std::string text = fmt::format("boards: found in {} of {} images\n", seen.boards_found, seen.images);
   text += describe_rejected(seen.rejected);
   text += describe_views(result.summary.views);
+  text += describe_lenses(result.summary.lenses);
   const RigQuality& quality = result.rig.quality;
   for (const auto& s : quality.sensors)
     text += fmt::format("{}: corners {:.3f} px rms in {} views, stripe {:.3f} px rms in {} views\n", s.name, s.board_rms_px,

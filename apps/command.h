@@ -51,8 +51,9 @@ struct Override {
 };
 using Overrides = std::vector<Override>;
 
-/// One command line option for each field of T: stripe_width with prefix "extraction." becomes --extraction.stripe-width.
-/// The same field list reads the YAML files, so that no name or default is written twice.
+/// One command line option for each field of T: stripe_width with prefix "extraction." becomes
+/// --extraction.stripe-width. The same field list reads the YAML files, so that no name or default is written
+/// twice.
 template <HasFields T>
 void add_field_options(CLI::App& app, const std::string& prefix, Overrides& overrides) {
   for (const FieldText& field : list_fields(T{})) {
@@ -61,7 +62,10 @@ void add_field_options(CLI::App& app, const std::string& prefix, Overrides& over
     const std::string help = field.comment + (field.value.empty() ? "" : " [" + field.value + "]");
     app.add_option_function<std::string>(
            flag,
-           [&overrides, flag, key = field.key](const std::string& value) { overrides.push_back({flag, key, value}); }, help)
+           [&overrides, flag, key = field.key](const std::string& value) {
+             overrides.push_back({flag, key, value});
+           },
+           help)
         ->group(prefix.empty() ? "Method" : "Over the file's " + prefix.substr(0, prefix.size() - 1));
   }
 }
@@ -81,8 +85,10 @@ int not_usable(const std::string& reason);
 void add_extract_command(CLI::App& app, Command& run);
 void add_calibrate_command(CLI::App& app, Command& run);
 void add_reconstruct_command(CLI::App& app, Command& run);
+void add_merge_command(CLI::App& app, Command& run);
 void add_simulate_command(CLI::App& app, Command& run);
 void add_demo_command(CLI::App& app, Command& run);
+void add_measure_command(CLI::App& app, Command& run);
 void add_bench_command(CLI::App& app, Command& run);
 void add_generate_command(CLI::App& app, Command& run);
 

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <glog/logging.h>
+
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
@@ -20,7 +22,8 @@ constexpr const char* kFirstSteps =
     "`lightstripe COMMAND --help` tells the options of a command.";
 
 int run(int argc, char** argv) {
-  CLI::App app{"lightstripe: calibrate laser-stripe rigs, reconstruct profiles, write point clouds", "lightstripe"};
+  CLI::App app{"lightstripe: calibrate laser-stripe rigs, reconstruct profiles, write point clouds",
+               "lightstripe"};
   app.set_version_flag("--version", LIGHTSTRIPE_VERSION);
   app.require_subcommand(1);
   app.footer(kFirstSteps);
@@ -29,7 +32,9 @@ int run(int argc, char** argv) {
   lightstripe::add_extract_command(app, command);
   lightstripe::add_calibrate_command(app, command);
   lightstripe::add_reconstruct_command(app, command);
+  lightstripe::add_merge_command(app, command);
   lightstripe::add_simulate_command(app, command);
+  lightstripe::add_measure_command(app, command);
   lightstripe::add_bench_command(app, command);
   lightstripe::add_generate_command(app, command);
   if (argc < 2) {
@@ -49,6 +54,7 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
   // OpenCV's own lines on stderr say less than our one error line, and would stand before it.
   cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
+  FLAGS_minloglevel = google::GLOG_FATAL;  // Ceres tells of steps that it then takes back
   try {
     return run(argc, argv);
   } catch (const lightstripe::Error& error) {
@@ -56,7 +62,8 @@ int main(int argc, char** argv) {
   } catch (const std::bad_alloc&) {
     fmt::print(stderr, "error: memory: not enough of it; use fewer --threads or smaller images\n");
   } catch (const std::exception& error) {
-    fmt::print(stderr, "error: lightstripe: {}; this is a fault of the program, please report it\n", error.what());
+    fmt::print(stderr, "error: lightstripe: {}; this is a fault of the program, please report it\n",
+               error.what());
   }
   return lightstripe::kExitInputWrong;
 }

@@ -3,9 +3,12 @@
 // A recorded scan on disk + rig -> cloud and profiles on disk.
 #pragma once
 
+#include <cstdint>
 #include <string>
+#include <vector>
 
 #include "apps/command.h"
+#include "apps/scan_journal.h"
 #include "extraction/extract_stripes.h"
 #include "reconstruct/scanner.h"
 
@@ -17,15 +20,25 @@ struct ReconstructArguments {
   std::string rig;       ///< empty: as the scan says
   std::string profiles;  ///< empty: not written
   std::string preview;   ///< empty: not drawn
+  std::string frames;    ///< "A:B": frames A to B - 1; either may be left out
+  bool strict = false;   ///< a picture that is missing or cannot be read ends the run
+  bool resume = false;   ///< go on where an earlier run was ended
+  double checkpoint_s = 1;
   Overrides extraction;
 };
 
 struct ReconstructOutcome {
   ScanSummary summary;
+  std::vector<NamedSkip> skipped;    ///< the first of them
+  std::vector<std::string> doubles;  ///< pictures whose number another one has
+  std::int64_t first_frame = 0, end_frame = 0;
+  std::int64_t frames_now = 0;  ///< of this run, without those of the one that it went on from
   double seconds = 0;
+  std::string partial_cloud;  ///< where the part is that was done before the run was interrupted
 };
 
-/// Reads, reconstructs and writes; files appear only when all went well and there are points.
+/// Reads, reconstructs and writes. Files appear under their names only when all went well and there are
+/// points; an interrupted run (Ctrl-C) leaves them under partial names, and says so by summary.stopped.
 ReconstructOutcome reconstruct_scan(const ReconstructArguments& arguments);
 
 }  // namespace lightstripe

@@ -4,21 +4,37 @@
 
 #include <fmt/format.h>
 
-#include <cstdint>
+#include <fstream>
 
+#include "core/error.h"
 #include "io/atomic_file.h"
 
 namespace lightstripe {
 namespace {
 
-// FNV-1a, 64 bits (Fowler, Noll, Vo): tells whether an input has changed, it is no protection against forgery.
-std::uint64_t fnv1a(std::string_view bytes) {
-  std::uint64_t hash = 0xcbf29ce484222325ULL;
-  for (const char byte : bytes) hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001b3ULL;
-  return hash;
+struct InputFacts {
+  std::uint64_t bytes = 0, hash = kFnvStart;
+};
+
+InputFacts facts_of(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw Error(path.string(), "cannot be read", "check the path");
+  InputFacts facts;
+  std::vector<char> part(std::size_t{1} << 20);
+  while (file.read(part.data(), static_cast<std::streamsize>(part.size())), file.gcount() > 0) {
+    const auto got = static_cast<std::size_t>(file.gcount());
+    facts.bytes += got;
+    facts.hash = fnv1a({part.data(), got}, facts.hash);
+  }
+  return facts;
 }
 
 }  // namespace
+
+std::uint64_t fnv1a(std::string_view bytes, std::uint64_t before) {
+  for (const char byte : bytes) before = (before ^ static_cast<unsigned char>(byte)) * 0x100000001b3ULL;
+  return before;
+}
 
 std::string indented(const std::string& text) {
   std::string out;
@@ -34,8 +50,9 @@ void write_run_record(const std::filesystem::path& output, const std::string& co
                       const std::vector<std::filesystem::path>& inputs, const std::string& options) {
   std::string text = fmt::format("lightstripe: {}\ncommand: {}\ninputs:\n", LIGHTSTRIPE_VERSION, command);
   for (const auto& input : inputs) {
-    const std::string bytes = read_file(input);
-    text += fmt::format("  - {{file: \"{}\", bytes: {}, fnv1a: \"{:016x}\"}}\n", input.string(), bytes.size(), fnv1a(bytes));
+    const InputFacts facts = facts_of(input);
+    text += fmt::format("  - {{file: \"{}\", bytes: {}, fnv1a: \"{:016x}\"}}\n", input.string(), facts.bytes,
+                        facts.hash);
   }
   write_file(output.string() + ".run.yaml", text + options);
 }

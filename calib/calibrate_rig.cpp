@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "calib/choose_lens.h"
 #include "calib/initial_values.h"
 #include "calib/joint_adjustment.h"
 #include "calib/measurements.h"
@@ -26,49 +27,45 @@ void check(const CalibrationOptions& o) {
   positive("robust_scale", o.robust_scale);
   positive("outlier_sigma", o.outlier_sigma);
   positive("max_iterations", o.max_iterations);
-  if (o.distortion_terms != 0 && o.distortion_terms != 4 && o.distortion_terms != 5 &&
-      o.distortion_terms != 8 && o.distortion_terms != 12)
-    throw Error("distortion_terms", fmt::format("{} is not a model", o.distortion_terms),
-                "choose 4, 5, 8, 12, or 0 for automatic");
 }
 
 void append(std::vector<std::string>& to, std::vector<std::string> from) {
   for (auto& text : from) to.push_back(std::move(text));
 }
 
-/// A k3 that the data do not show only disturbs the image beyond the boards.
-bool needs_k3(const JointAdjustment& adjustment) {
-  constexpr int kK3 = 8;  // place in the intrinsics block
-  for (const auto& block : adjustment.globals) {
-    if (block.kind != GlobalBlock::Kind::kIntrinsics || adjustment.covariance.size() == 0) continue;
-    const auto& camera = adjustment.state.sensors[static_cast<std::size_t>(block.sensor)].camera;
-    const int column = block.column + kK3;
-    if (std::abs(camera.distortion[4]) > 3 * std::sqrt(adjustment.covariance(column, column))) return true;
+/// The lens model of every sensor: given, or chosen.
+std::vector<LensChoice> lens_choices(const InitialValues& start, const CalibrationOptions& options) {
+  std::vector<LensChoice> choices;
+  for (std::size_t s = 0; s < start.state.sensors.size(); ++s) {
+    const auto& given = start.measurements.given_cameras[s];
+    const bool fixed = given && given->fixed;
+    if (options.lens != LensModel::kAuto || fixed) {
+      choices.push_back({start.measurements.sensor_names[s], options.lens, {}});
+    } else {
+      choices.push_back(choose_lens(start, static_cast<int>(s), options));
+    }
   }
-  return false;
+  return choices;
 }
 
-/// The adjustment with the model that the options name, or that the data ask for; says which in `options`.
-JointAdjustment adjusted(const InitialValues& start, CalibrationOptions& options) {
-  if (options.distortion_terms != 0) return adjust_jointly(start.measurements, start.state, options);
-  options.distortion_terms = 5;
-  auto rich = adjust_jointly(start.measurements, start.state, options);
-  if (needs_k3(rich)) return rich;
-  options.distortion_terms = 4;
-  auto lean = adjust_jointly(start.measurements, start.state, options);
-  lean.iterations += rich.iterations;
-  return lean;
+std::vector<LensModel> models_of(const std::vector<LensChoice>& choices) {
+  std::vector<LensModel> lenses;
+  for (const auto& choice : choices) lenses.push_back(choice.lens);
+  return lenses;
 }
 
 /// The stages in their order; throws NotUsable with what was found so far in `result`.
-void calibrate(const CalibrationObservations& observations, CalibrationOptions options,
+void calibrate(const CalibrationObservations& observations, const CalibrationOptions& options,
                CalibrationResult& result) {
   const InitialValues start = initial_values(prepare_measurements(observations));
   const Measurements& measurements = start.measurements;
   auto& quality = result.rig.quality;
   quality.warnings = start.warnings;
 
-  const JointAdjustment adjustment = adjusted(start, options);
+  result.summary.lenses = lens_choices(start, options);
+  const JointAdjustment adjustment =
+      adjust_jointly(measurements, start.state, models_of(result.summary.lenses), options);
+  result.summary.board_warp_mm = adjustment.state.board_warp_mm;
   result.summary.iterations = adjustment.iterations;
   result.summary.views = view_residuals(measurements, adjustment.measurements);
   quality.sensors = sensor_quality(measurements, adjustment.measurements);
@@ -78,11 +75,12 @@ void calibrate(const CalibrationObservations& observations, CalibrationOptions o
   result.rig.sensors = std::move(rig.sensors);
   result.rig.motion = rig.motion;
   append(quality.warnings, warnings_about(measurements, adjustment, result.summary.views));
-  quality.sigma = parameter_sigmas(measurements, adjustment, options);
-  const auto section = section_uncertainty(measurements, adjustment, observations.up, options);
+  quality.sigma = parameter_sigmas(measurements, adjustment);
+  const auto section = section_uncertainty(measurements, adjustment, observations.up);
   quality.section_shape_sigma_mm = section.shape_mm;
   quality.section_absolute_sigma_mm = section.absolute_mm;
   refuse_uncertain_section(adjustment, section.shape_mm);
+  refuse_oblong_pixels(measurements, adjustment.state);
   refuse_folded_image(measurements, adjustment.state);
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "calib/lens_model.h"
 #include "calib/observations.h"
 #include "core/fields.h"
 #include "core/rig.h"
@@ -18,10 +19,9 @@ struct CalibrationOptions {
   double stripe_sigma_floor_px = 0.05;  ///< added in quadrature to each stripe point's own sigma_px
   double robust_scale = 3.0;            ///< residuals beyond this many sigma lose weight (Huber, then Cauchy)
   double outlier_sigma = 4.5;           ///< residuals beyond this many sigma are left out of the last rounds
-  /// Of OpenCV's order: 4 (k1 k2 p1 p2), 5 (and k3), 8 (rational), 12 (thin prism); 0: 5 where a k3 differs
-  /// from 0 by 3 sigma, else 4.
-  int distortion_terms = 0;
-  int max_iterations = 100;  ///< of each round
+  LensModel lens = LensModel::kAuto;  ///< auto: chosen for each sensor by cross-validation, see choose_lens()
+  bool board_warp = true;             ///< find the bow of the board as well
+  int max_iterations = 100;           ///< of each round
 };
 
 template <class V>
@@ -31,8 +31,10 @@ void visit_fields(V&& v, CalibrationOptions& o) {
     "added in quadrature to each stripe point's predicted error, px");
   v("robust_scale", o.robust_scale, "residuals beyond this many sigma lose weight");
   v("outlier_sigma", o.outlier_sigma, "residuals beyond this many sigma are left out");
-  v("distortion_terms", o.distortion_terms,
-    "4 (k1 k2 p1 p2) | 5 (and k3) | 8 (rational) | 12 (thin prism); 0: 4 or 5, by the data");
+  v("lens", o.lens,
+    "pinhole | brown4 | brown5 | rational | thin-prism | tilted | tilted5 | tilted-rational (tilted: "
+    "Scheimpflug) | auto: by cross-validation");
+  v("board_warp", o.board_warp, "find the bow of the board along x and y as well");
   v("max_iterations", o.max_iterations, "of each round of the adjustment");
 }
 
@@ -45,12 +47,26 @@ struct ViewResidual {
   int left_out = 0;                    ///< corners and stripe points that did not fit
 };
 
+/// A lens model with its error on views that it was not fitted to (rms length of the corners' residuals).
+struct LensTrial {
+  LensModel lens = LensModel::kAuto;
+  double held_out_rms_px = 0;
+};
+
+struct LensChoice {
+  std::string sensor;
+  LensModel lens = LensModel::kAuto;
+  std::vector<LensTrial> trials;  ///< empty where the model was given, or the views were too few
+};
+
 /// Whether and how well it went; starts as "not run".
 struct CalibrationSummary {
   bool usable = false;
   std::string message = "not run";  ///< the reason where it is not usable: what is wrong, what to do
   int iterations = 0;
   std::vector<ViewResidual> views;
+  std::vector<LensChoice> lenses;                           ///< for each sensor
+  Eigen::Vector2d board_warp_mm = Eigen::Vector2d::Zero();  ///< bow at the board's middle, along x and y
 };
 
 struct CalibrationResult {

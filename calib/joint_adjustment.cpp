@@ -2,14 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "calib/joint_adjustment.h"
 
-#include <ceres/solver.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "calib/reduced_covariance.h"
-#include "calib/stripe_frame.h"
+#include "calib/solve_problem.h"
 
 namespace lightstripe {
 namespace {
@@ -37,7 +35,8 @@ std::vector<Measurement> list_measurements(const Measurements& measurements,
   std::vector<Measurement> list;
   for (std::size_t v = 0; v < measurements.views.size(); ++v) {
     const auto& view = measurements.views[v];
-    for (std::size_t i = 0; i < view.corners.size(); ++i) list.push_back({v, -1, i, options.corner_sigma_px});
+    for (std::size_t i = 0; i < view.corners.size(); ++i)
+      if (is_seen(view.corners[i])) list.push_back({v, -1, i, options.corner_sigma_px});
     for (std::size_t p = 0; p < view.stripes.size(); ++p)
       for (std::size_t i = 0; i < view.stripes[p].size(); ++i)
         list.push_back({v, static_cast<int>(p), i, stripe_sigma_px(view.stripes[p][i], options)});
@@ -50,35 +49,10 @@ void drop_unseen(const Measurements& measurements, const RigState& state, std::v
   for (auto& measurement : list) {
     if (measurement.is_corner() || !measurement.used) continue;
     const auto& view = measurements.views[measurement.view];
-    const auto& sensor = state.sensors[static_cast<std::size_t>(view.sensor)];
     const auto p = static_cast<std::size_t>(measurement.plane);
     const auto& point = view.stripes[p][measurement.index];
-    const Rigid3 cam_from_board =
-        sensor.cam_from_first * state.first_from_board[static_cast<std::size_t>(view.pose)];
-    measurement.used =
-        stripe_frame(sensor.camera, board_plane(cam_from_board), sensor.laser_planes[p], {point.x, point.y})
-            .has_value();
+    measurement.used = seen_stripe_point(measurements, state, view, p, {point.x, point.y}).has_value();
   }
-}
-
-ceres::Solver::Summary solve(JointProblem& joint, int max_iterations, double tolerance) {
-  ceres::Solver::Options options;
-  options.linear_solver_type = ceres::DENSE_SCHUR;
-  options.num_threads = 1;  // more would add in the order of arrival: other bits in every run
-  options.max_num_iterations = max_iterations;
-  options.function_tolerance = tolerance;
-  options.parameter_tolerance = tolerance;
-  options.gradient_tolerance = 1e-14;
-  options.initial_trust_region_radius =
-      1e10;  // the start is good: full Gauss-Newton steps, damped only if they fail
-  options.logging_type = ceres::SILENT;
-  auto* ordering = new ceres::ParameterBlockOrdering;
-  for (double* block : joint.blocks()) ordering->AddElementToGroup(block, 1);
-  for (double* block : joint.pose_blocks()) ordering->AddElementToGroup(block, 0);
-  options.linear_solver_ordering.reset(ordering);
-  ceres::Solver::Summary summary;
-  ceres::Solve(options, &joint.problem(), &summary);
-  return summary;
 }
 
 void read_residuals(JointProblem& joint, std::vector<Measurement>& list) {
@@ -130,6 +104,20 @@ void remove_outliers(double limit, std::vector<Measurement>& list) {
   for (auto& measurement : list) measurement.used = measurement.used && measurement.normalised() <= limit;
 }
 
+/// Terms that the lens model does not have are 0, those of a fixed camera stay.
+RigState with_terms_of(const std::vector<LensModel>& lenses, const Measurements& measurements,
+                       RigState state) {
+  for (std::size_t s = 0; s < state.sensors.size(); ++s) {
+    if (measurements.given_cameras[s] && measurements.given_cameras[s]->fixed) continue;
+    auto& terms = state.sensors[s].camera.distortion;
+    std::array<double, kDistortionTerms> kept{};
+    for (const int i : free_terms(lenses[s]))
+      kept[static_cast<std::size_t>(i)] = terms[static_cast<std::size_t>(i)];
+    terms = kept;
+  }
+  return state;
+}
+
 double redundancy_of(const ceres::Solver::Summary& summary) {
   return std::max(0.1, 1.0 - static_cast<double>(summary.num_effective_parameters_reduced) /
                                  summary.num_residuals_reduced);
@@ -138,7 +126,7 @@ double redundancy_of(const ceres::Solver::Summary& summary) {
 }  // namespace
 
 JointAdjustment adjust_jointly(const Measurements& measurements, const RigState& start,
-                               const CalibrationOptions& options) {
+                               const std::vector<LensModel>& lenses, const CalibrationOptions& options) {
   using Loss = ProblemOptions::Loss;
   enum { kGivenSigmas, kRobustSigmas, kWithoutOutliers, kFinal, kRounds };
   // Huber finds its way from a rough start; Cauchy then lets go of a stripe or a view that is wrong as a
@@ -146,13 +134,14 @@ JointAdjustment adjust_jointly(const Measurements& measurements, const RigState&
   static constexpr std::array<Loss, kRounds> kLosses{Loss::kHuber, Loss::kCauchy, Loss::kSquared,
                                                      Loss::kSquared};
   JointAdjustment result;
-  result.state = start;
+  result.state = with_terms_of(lenses, measurements, start);
+  result.lenses = lenses;
   result.measurements = list_measurements(measurements, options);
   for (std::size_t round = 0; round < kRounds; ++round) {
     drop_unseen(measurements, result.state, result.measurements);
     JointProblem joint(measurements, result.state, result.measurements,
-                       {options.distortion_terms, kLosses[round], options.robust_scale});
-    const auto summary = solve(joint, options.max_iterations, round < kFinal ? 1e-8 : 1e-11);
+                       {lenses, options.board_warp, kLosses[round], options.robust_scale});
+    const auto summary = solve_problem(joint, options.max_iterations, round < kFinal ? 1e-8 : 1e-11);
     result.iterations += static_cast<int>(summary.iterations.size());
     result.converged = summary.termination_type == ceres::CONVERGENCE;
     if (!summary.IsSolutionUsable()) return result;

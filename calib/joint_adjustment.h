@@ -17,7 +17,8 @@ struct JointAdjustment {
   std::vector<Measurement> measurements;  ///< with residuals; those not `used` were outliers
   int iterations = 0;
   bool converged = false;
-  double sigma0 = 1;  ///< rms of the normalised residuals / sqrt(1 - unknowns / residuals)
+  std::vector<LensModel> lenses;  ///< for each sensor
+  double sigma0 = 1;              ///< rms of the normalised residuals / sqrt(1 - unknowns / residuals)
   std::vector<GlobalBlock> globals;
   Eigen::MatrixXd
       covariance;        ///< of the shared unknowns (tangent space), sigma0^2 included; empty if singular
@@ -27,7 +28,8 @@ struct JointAdjustment {
 /// Rounds of Levenberg-Marquardt: robust with the sigmas given; robust with sigmas estimated by the residuals
 /// of each sensor's corners and stripes; outliers removed, least squares with final sigmas. Same input, same
 /// bits.
+/// `lenses`: one for each sensor, none of them kAuto; terms that they do not have start and stay at 0.
 JointAdjustment adjust_jointly(const Measurements& measurements, const RigState& start,
-                               const CalibrationOptions& options);
+                               const std::vector<LensModel>& lenses, const CalibrationOptions& options);
 
 }  // namespace lightstripe

@@ -9,8 +9,8 @@
 
 #include <algorithm>
 
+#include "calib/board_surface.h"
 #include "calib/residuals.h"
-#include "calib/stripe_frame.h"
 #include "core/error.h"
 
 namespace lightstripe {
@@ -18,6 +18,8 @@ namespace {
 
 using PoseManifold = ceres::ProductManifold<ceres::EigenQuaternionManifold, ceres::EuclideanManifold<3>>;
 using PlaneManifold = ceres::ProductManifold<ceres::SphereManifold<3>, ceres::EuclideanManifold<1>>;
+
+constexpr std::size_t kWellKnownTerms = 5;  // a model with more of them has terms that trade off
 
 std::array<double, kIntrinsics> intrinsics_block_of(const Camera& camera) {
   std::array<double, kIntrinsics> block{camera.fx, camera.fy, camera.cx, camera.cy};
@@ -52,10 +54,12 @@ Plane plane_of(const double* block) {
 
 std::array<double, 3> block_of(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
-/// The distortion terms beyond the model stay as they are.
-ceres::Manifold* intrinsics_manifold(int distortion_terms) {
+/// The distortion terms that the model does not have stay as they are.
+ceres::Manifold* intrinsics_manifold(LensModel lens) {
+  const auto free = free_terms(lens);
   std::vector<int> fixed;
-  for (int i = 4 + distortion_terms; i < kIntrinsics; ++i) fixed.push_back(i);
+  for (int i = 0; i < kDistortionTerms; ++i)
+    if (std::find(free.begin(), free.end(), i) == free.end()) fixed.push_back(4 + i);
   return new ceres::SubsetManifold(kIntrinsics, fixed);
 }
 
@@ -79,6 +83,10 @@ JointProblem::JointProblem(const Measurements& measurements, const RigState& sta
     const auto& view = measurements.views[measurement.view];
     measurement.is_corner() ? add_corner(view, measurement) : add_stripe_point(view, measurement);
   }
+  for (const auto& block : globals_)  // behind the measurements, whose residuals are read in order
+    if (block.kind == GlobalBlock::Kind::kIntrinsics && free_terms(block.lens).size() > kWellKnownTerms)
+      problem_->AddResidualBlock(new LensPrior(free_terms(block.lens)), nullptr,
+                                 intrinsics_[static_cast<std::size_t>(block.sensor)]);
 }
 
 template <std::size_t Size>
@@ -89,7 +97,7 @@ double* JointProblem::store(const std::array<double, Size>& values) {
 }
 
 void JointProblem::store_state(const RigState& state) {
-  std::size_t size = 13 + 7 * state.first_from_board.size();
+  std::size_t size = 15 + 7 * state.first_from_board.size();
   for (const auto& sensor : state.sensors) size += kIntrinsics + 7 + 4 * sensor.laser_planes.size();
   storage_.reserve(size);
   for (const auto& sensor : state.sensors) {
@@ -99,6 +107,7 @@ void JointProblem::store_state(const RigState& state) {
     for (const auto& plane : sensor.laser_planes) planes_.back().push_back(store(plane_block_of(plane)));
   }
   for (const auto& pose : state.first_from_board) first_from_board_.push_back(store(pose_block_of(pose)));
+  warp_ = store(std::array<double, 2>{state.board_warp_mm.x(), state.board_warp_mm.y()});
   if (!state.motion) return;
   motion_board_ = store(pose_block_of(state.motion->first_from_board));
   direction_ = store(block_of(state.motion->direction));
@@ -113,27 +122,49 @@ void JointProblem::add_global(GlobalBlock block, double* data, ceres::Manifold* 
   global_blocks_.push_back(data);
 }
 
-void JointProblem::add_blocks(const std::vector<Measurement>& list) {
+void JointProblem::add_constant(double* data, int size) {
+  problem_->AddParameterBlock(data, size);
+  problem_->SetParameterBlockConstant(data);
+}
+
+void JointProblem::add_sensor_blocks(std::size_t s) {
   using Kind = GlobalBlock::Kind;
-  for (std::size_t s = 0; s < intrinsics_.size(); ++s) {
-    const int sensor = static_cast<int>(s);
-    add_global({Kind::kIntrinsics, sensor}, intrinsics_[s], intrinsics_manifold(options_.distortion_terms));
-    if (s == 0) {
-      problem_->AddParameterBlock(cam_from_first_[s], 7);
-      problem_->SetParameterBlockConstant(cam_from_first_[s]);
-    } else {
-      add_global({Kind::kCamFromFirst, sensor}, cam_from_first_[s], new PoseManifold);
-    }
-    for (std::size_t p = 0; p < planes_[s].size(); ++p)
-      add_global({Kind::kLaserPlane, sensor, static_cast<int>(p)}, planes_[s][p], new PlaneManifold);
+  const int sensor = static_cast<int>(s);
+  const auto& given = measurements_->given_cameras[s];
+  if (given && given->fixed) {
+    add_constant(intrinsics_[s], kIntrinsics);
+  } else {
+    const LensModel lens = options_.lenses.at(s);
+    add_global({Kind::kIntrinsics, sensor, 0, 0, 0, lens}, intrinsics_[s], intrinsics_manifold(lens));
   }
-  if (start_.motion) add_global({Kind::kDirection}, direction_, new ceres::SphereManifold<3>);
+  if (s == 0) {
+    add_constant(cam_from_first_[s], 7);
+  } else {
+    add_global({Kind::kCamFromFirst, sensor}, cam_from_first_[s], new PoseManifold);
+  }
+  for (std::size_t p = 0; p < planes_[s].size(); ++p)
+    add_global({Kind::kLaserPlane, sensor, static_cast<int>(p)}, planes_[s][p], new PlaneManifold);
+}
+
+void JointProblem::add_motion_blocks() {
+  using Kind = GlobalBlock::Kind;
+  if (!start_.motion) return;
+  add_global({Kind::kDirection}, direction_, new ceres::SphereManifold<3>);
   if (measurements_->motion == MotionType::kRotary) {
     add_global({Kind::kAxisPoint}, axis_point_, axis_point_manifold(start_.motion->direction));
-  } else if (start_.motion) {
-    problem_->AddParameterBlock(axis_point_, 3);
-    problem_->SetParameterBlockConstant(axis_point_);
+  } else {
+    add_constant(axis_point_, 3);
   }
+}
+
+void JointProblem::add_blocks(const std::vector<Measurement>& list) {
+  for (std::size_t s = 0; s < intrinsics_.size(); ++s) add_sensor_blocks(s);
+  if (options_.board_warp) {
+    add_global({GlobalBlock::Kind::kBoardWarp}, warp_, new ceres::EuclideanManifold<2>);
+  } else {
+    add_constant(warp_, 2);
+  }
+  add_motion_blocks();
   for (const auto& measurement : list) {
     double* block = pose_block(measurements_->views[measurement.view]);
     if (!measurement.used || problem_->HasParameterBlock(block)) continue;
@@ -155,33 +186,46 @@ ceres::LossFunction* JointProblem::loss() const {
 
 void JointProblem::add_corner(const ViewMeasurement& view, const Measurement& measurement) {
   const auto sensor = static_cast<std::size_t>(view.sensor);
-  const Eigen::Vector2d p = measurements_->target.corner(static_cast<int>(measurement.index));
-  const Eigen::Vector3d p_board(p.x(), p.y(), 0);
+  const auto& target = measurements_->target;
+  const BoardPlace corner = board_place(target, target.corner(static_cast<int>(measurement.index)));
   const Eigen::Vector2d& pixel = view.corners[measurement.index];
   double* intrinsics = intrinsics_[sensor];
   double* cam_from_first = cam_from_first_[sensor];
   if (view.pose >= 0) {
-    problem_->AddResidualBlock(new CornerResidual(p_board, pixel, measurement.sigma_px), loss(), intrinsics,
-                               cam_from_first, pose_block(view));
+    problem_->AddResidualBlock(new CornerResidual(corner, pixel, measurement.sigma_px), loss(), intrinsics,
+                               cam_from_first, pose_block(view), warp_);
     return;
   }
   const double signed_travel = measurements_->motion_sign() * view.travel;
   problem_->AddResidualBlock(
-      new TravelCornerResidual(p_board, pixel, measurement.sigma_px, measurements_->motion, signed_travel),
-      loss(), intrinsics, cam_from_first, pose_block(view), direction_, axis_point_);
+      new TravelCornerResidual(corner, pixel, measurement.sigma_px, measurements_->motion, signed_travel),
+      loss(), intrinsics, cam_from_first, pose_block(view), warp_, direction_, axis_point_);
 }
 
 void JointProblem::add_stripe_point(const ViewMeasurement& view, const Measurement& measurement) {
   const auto s = static_cast<std::size_t>(view.sensor);
   const auto p = static_cast<std::size_t>(measurement.plane);
-  const auto& sensor = start_.sensors[s];
-  const Eigen::Vector2d pixel(view.stripes[p][measurement.index].x, view.stripes[p][measurement.index].y);
+  const auto& point = view.stripes[p][measurement.index];
+  const auto seen = seen_stripe_point(*measurements_, start_, view, p, {point.x, point.y});
+  LIGHTSTRIPE_CHECK(seen.has_value(), "a stripe point that no ray explains must not be used");
+  problem_->AddResidualBlock(new StripeResidual(seen->place, {point.x, point.y}, seen->frame.normal,
+                                                seen->frame.across, measurement.sigma_px),
+                             loss(), intrinsics_[s], cam_from_first_[s], pose_block(view), warp_,
+                             planes_[s][p]);
+}
+
+std::optional<SeenStripePoint> seen_stripe_point(const Measurements& measurements, const RigState& state,
+                                                 const ViewMeasurement& view, std::size_t plane,
+                                                 const Eigen::Vector2d& pixel) {
+  const auto& sensor = state.sensors[static_cast<std::size_t>(view.sensor)];
   const Rigid3 cam_from_board =
-      sensor.cam_from_first * start_.first_from_board[static_cast<std::size_t>(view.pose)];
-  const auto frame = stripe_frame(sensor.camera, board_plane(cam_from_board), sensor.laser_planes[p], pixel);
-  LIGHTSTRIPE_CHECK(frame.has_value(), "a stripe point that no ray explains must not be used");
-  problem_->AddResidualBlock(new StripeResidual(pixel, frame->normal, frame->across, measurement.sigma_px),
-                             loss(), intrinsics_[s], cam_from_first_[s], pose_block(view), planes_[s][p]);
+      sensor.cam_from_first * state.first_from_board[static_cast<std::size_t>(view.pose)];
+  const auto place = seen_place(measurements.target, sensor.camera, cam_from_board, pixel);
+  if (!place) return std::nullopt;
+  const auto frame = stripe_frame(sensor.camera, tangent_plane(*place, state.board_warp_mm, cam_from_board),
+                                  sensor.laser_planes[plane], pixel);
+  if (!frame) return std::nullopt;
+  return SeenStripePoint{*place, *frame};
 }
 
 RigState JointProblem::state() const {
@@ -194,6 +238,7 @@ RigState JointProblem::state() const {
   }
   for (std::size_t i = 0; i < first_from_board_.size(); ++i)
     result.first_from_board[i] = pose_of(first_from_board_[i]);
+  result.board_warp_mm = Eigen::Map<const Eigen::Vector2d>(warp_);
   if (result.motion) {
     result.motion->first_from_board = pose_of(motion_board_);
     result.motion->direction = Eigen::Map<const Eigen::Vector3d>(direction_).normalized();
@@ -209,7 +254,7 @@ std::vector<double*> JointProblem::blocks() const {
 }
 
 RigState moved_state(const RigState& state, const std::vector<GlobalBlock>& globals,
-                     const Eigen::VectorXd& delta, int distortion_terms) {
+                     const Eigen::VectorXd& delta) {
   using Kind = GlobalBlock::Kind;
   RigState result = state;
   for (const auto& block : globals) {
@@ -218,8 +263,7 @@ RigState moved_state(const RigState& state, const std::vector<GlobalBlock>& glob
     auto& sensor = result.sensors[static_cast<std::size_t>(block.sensor)];
     if (block.kind == Kind::kIntrinsics) {
       auto from = intrinsics_block_of(sensor.camera), to = from;
-      std::unique_ptr<ceres::Manifold>(intrinsics_manifold(distortion_terms))
-          ->Plus(from.data(), step, to.data());
+      std::unique_ptr<ceres::Manifold>(intrinsics_manifold(block.lens))->Plus(from.data(), step, to.data());
       sensor.camera = camera_of(sensor.camera, to.data());
     } else if (block.kind == Kind::kCamFromFirst) {
       auto from = pose_block_of(sensor.cam_from_first), to = from;
@@ -230,6 +274,8 @@ RigState moved_state(const RigState& state, const std::vector<GlobalBlock>& glob
       auto from = plane_block_of(plane), to = from;
       PlaneManifold().Plus(from.data(), step, to.data());
       plane = plane_of(to.data());
+    } else if (block.kind == Kind::kBoardWarp) {
+      result.board_warp_mm += Eigen::Map<const Eigen::Vector2d>(step);
     } else if (block.kind == Kind::kDirection) {
       const auto from = block_of(state.motion->direction);
       ceres::SphereManifold<3>().Plus(from.data(), step, result.motion->direction.data());

@@ -8,9 +8,13 @@
 #include <Eigen/Core>
 #include <array>
 #include <memory>
+#include <optional>
 #include <vector>
 
+#include "calib/board_surface.h"
+#include "calib/lens_model.h"
 #include "calib/rig_state.h"
+#include "calib/stripe_frame.h"
 
 namespace lightstripe {
 
@@ -31,14 +35,16 @@ struct Measurement {
 
 /// Unknowns that all views share; a view's pose is not one of them.
 struct GlobalBlock {
-  enum class Kind { kIntrinsics, kCamFromFirst, kLaserPlane, kDirection, kAxisPoint };
+  enum class Kind { kIntrinsics, kCamFromFirst, kLaserPlane, kBoardWarp, kDirection, kAxisPoint };
   Kind kind = Kind::kIntrinsics;
   int sensor = 0, plane = 0;
   int column = 0, size = 0;  ///< place in the covariance: first column and number of columns (tangent space)
+  LensModel lens = LensModel::kAuto;  ///< of kIntrinsics
 };
 
 struct ProblemOptions {
-  int distortion_terms = 5;  ///< 4, 5, 8 or 12 of OpenCV's order
+  std::vector<LensModel> lenses;  ///< for each sensor; cameras that are given and fixed keep theirs
+  bool board_warp = true;         ///< false: the board keeps the state's warp
   enum class Loss { kSquared, kHuber, kCauchy } loss = Loss::kSquared;
   double robust_scale = 3;  ///< of the loss, in sigma
 };
@@ -70,6 +76,9 @@ class JointProblem {
   double* store(const std::array<double, Size>& values);
   void store_state(const RigState& state);
   void add_blocks(const std::vector<Measurement>& list);
+  void add_sensor_blocks(std::size_t sensor);
+  void add_motion_blocks();
+  void add_constant(double* data, int size);
   void add_global(GlobalBlock block, double* data, ceres::Manifold* manifold);
   double* pose_block(const ViewMeasurement& view);
   ceres::LossFunction* loss() const;
@@ -81,15 +90,27 @@ class JointProblem {
   std::vector<double> storage_;
   std::vector<double*> intrinsics_, cam_from_first_, first_from_board_;
   std::vector<std::vector<double*>> planes_;
+  double* warp_ = nullptr;
   double *motion_board_ = nullptr, *direction_ = nullptr, *axis_point_ = nullptr;
   std::vector<GlobalBlock> globals_;
   std::vector<double*> global_blocks_, pose_blocks_;
   std::unique_ptr<ceres::Problem> problem_;
 };
 
+/// A stripe point's place on the board and the frame of its residual.
+struct SeenStripePoint {
+  BoardPlace place;
+  StripeFrame frame;
+};
+
+/// Nothing where no ray of this state explains the point.
+std::optional<SeenStripePoint> seen_stripe_point(const Measurements& measurements, const RigState& state,
+                                                 const ViewMeasurement& view, std::size_t plane,
+                                                 const Eigen::Vector2d& pixel);
+
 /// The state moved by `delta` in the tangent space of its shared unknowns: what column j of the covariance
 /// means.
 RigState moved_state(const RigState& state, const std::vector<GlobalBlock>& globals,
-                     const Eigen::VectorXd& delta, int distortion_terms);
+                     const Eigen::VectorXd& delta);
 
 }  // namespace lightstripe

@@ -47,6 +47,7 @@ void add_sensor(Measurements& result, const SensorObservations& sensor, int inde
                     sensor.name, sensor.views.size(), kMinViews));
   result.sensor_names.push_back(sensor.name);
   result.image_sizes.push_back({sensor.width, sensor.height});
+  result.given_cameras.push_back(sensor.given_camera);
   for (const auto& view : sensor.views) {
     auto added = measured(view, index, result.target, sensor.laser_planes);
     added.pose = pose_index(result.poses, view.pose);

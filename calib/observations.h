@@ -4,21 +4,35 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "core/board.h"
+#include "core/camera.h"
 #include "core/rig.h"
 #include "core/stripe.h"
 
 namespace lightstripe {
 
+/// A corner that a partial view of the board does not show is NaN, so that every list has the target's order.
+inline Eigen::Vector2d unseen_corner() {
+  return Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
+}
+inline bool is_seen(const Eigen::Vector2d& corner) { return corner.allFinite(); }
+
+/// Intrinsics that are known beforehand.
+struct GivenCamera {
+  Camera camera;
+  bool fixed = true;  ///< false: start values only
+};
+
 /// One board pose seen by one sensor. The same `pose` text in two sensors = the same pose of the board.
 struct BoardView {
   std::string image;  ///< for messages
   std::string pose;
-  std::vector<Eigen::Vector2d> corners;  ///< px, in the order of Target::corner
+  std::vector<Eigen::Vector2d> corners;  ///< px, in the order of Target::corner; see is_seen()
   std::vector<std::vector<StripePoint>>
       stripes;  ///< for each laser plane the points on the board (may be empty)
 };
@@ -28,6 +42,7 @@ struct SensorObservations {
   int width = 0, height = 0;  ///< px
   int laser_planes = 1;
   std::vector<BoardView> views;
+  std::optional<GivenCamera> given_camera{};
 };
 
 /// A fixed board seen from known positions of travel.

@@ -7,6 +7,7 @@
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
+#include <algorithm>
 
 namespace lightstripe {
 namespace {
@@ -73,32 +74,26 @@ Vector2d pixel_of(const double* intrinsics, const Vector3d& p_cam) {
 }  // namespace
 
 ProjectionDerivatives project_with_derivatives(const double* intrinsics, const Vector3d& p_cam) {
-  using Jet = ceres::Jet<double, kDistortionTerms + 2>;
-  Jet distortion[kDistortionTerms];
-  for (int i = 0; i < kDistortionTerms; ++i) distortion[i] = Jet(intrinsics[4 + i], i);
   const double x = p_cam.x() / p_cam.z(), y = p_cam.y() / p_cam.z();
-  const Eigen::Matrix<Jet, 2, 1> d =
-      distort<Jet>(distortion, {Jet(x, kDistortionTerms), Jet(y, kDistortionTerms + 1)});
+  const auto distorted = distortion_derivatives(intrinsics + 4, {x, y});
   Eigen::Matrix<double, 2, 3> normalised_by_point;
   normalised_by_point << 1, 0, -x, 0, 1, -y;
   normalised_by_point /= p_cam.z();
 
+  const Eigen::Map<const Vector2d> f(intrinsics), centre(intrinsics + 2);
   ProjectionDerivatives result;
-  result.by_intrinsics.setZero();
-  for (int i = 0; i < 2; ++i) {
-    const double f = intrinsics[i];
-    result.pixel[i] = f * d[i].a + intrinsics[2 + i];
-    result.by_intrinsics(i, i) = d[i].a;
-    result.by_intrinsics(i, 2 + i) = 1;
-    result.by_intrinsics.row(i).tail<kDistortionTerms>() = f * d[i].v.head<kDistortionTerms>().transpose();
-    result.by_point.row(i) = f * d[i].v.tail<2>().transpose() * normalised_by_point;
-  }
+  result.pixel = f.cwiseProduct(distorted.value) + centre;
+  result.by_point = f.asDiagonal() * distorted.by_point * normalised_by_point;
+  result.by_intrinsics.leftCols<2>() = distorted.value.asDiagonal();
+  result.by_intrinsics.middleCols<2>(2).setIdentity();
+  result.by_intrinsics.rightCols<kDistortionTerms>() = f.asDiagonal() * distorted.by_terms;
   return result;
 }
 
 bool CornerResidual::Evaluate(const double* const* blocks, double* residuals, double** jacobians) const {
   const Pose cam_from_first(blocks[1]), first_from_board(blocks[2]);
-  const Vector3d p_first = first_from_board * p_board_, p_cam = cam_from_first * p_first;
+  const Vector3d p_board = corner_.point(Eigen::Map<const Vector2d>(blocks[3]));
+  const Vector3d p_first = first_from_board * p_board, p_cam = cam_from_first * p_first;
   if (!(p_cam.z() > 0)) return false;
   if (!jacobians) {
     write_residual(pixel_of(blocks[0], p_cam), pixel_, sigma_px_, residuals);
@@ -109,7 +104,10 @@ bool CornerResidual::Evaluate(const double* const* blocks, double* residuals, do
   write<2, kIntrinsics>(seen.by_intrinsics / sigma_px_, jacobians[0]);
   const Eigen::Matrix<double, 2, 3> by_point = seen.by_point / sigma_px_;
   write_pose<2>(by_point, cam_from_first, p_first, jacobians[1]);
-  write_pose<2>(by_point * cam_from_first.matrix(), first_from_board, p_board_, jacobians[2]);
+  const Eigen::Matrix<double, 2, 3> by_first = by_point * cam_from_first.matrix();
+  write_pose<2>(by_first, first_from_board, p_board, jacobians[2]);
+  write<2, 2>(by_first * (first_from_board.rotation * Vector3d::UnitZ()) * corner_.weights.transpose(),
+              jacobians[3]);
   return true;
 }
 
@@ -151,9 +149,10 @@ MovedPoint turned(const Vector3d& p, const double* direction, const double* axis
 bool TravelCornerResidual::Evaluate(const double* const* blocks, double* residuals,
                                     double** jacobians) const {
   const Pose cam_from_first(blocks[1]), first_from_board(blocks[2]);
-  const Vector3d p = first_from_board * p_board_;
-  const MovedPoint moved = motion_ == MotionType::kRotary ? turned(p, blocks[3], blocks[4], signed_travel_)
-                                                          : translated(p, blocks[3], signed_travel_);
+  const Vector3d p_board = corner_.point(Eigen::Map<const Vector2d>(blocks[3]));
+  const Vector3d p = first_from_board * p_board;
+  const MovedPoint moved = motion_ == MotionType::kRotary ? turned(p, blocks[4], blocks[5], signed_travel_)
+                                                          : translated(p, blocks[4], signed_travel_);
   const Vector3d p_cam = cam_from_first * moved.p;
   if (!(p_cam.z() > 0)) return false;
   const auto seen = project_with_derivatives(blocks[0], p_cam);
@@ -163,23 +162,27 @@ bool TravelCornerResidual::Evaluate(const double* const* blocks, double* residua
   const Eigen::Matrix<double, 2, 3> by_point = seen.by_point / sigma_px_;
   const Eigen::Matrix<double, 2, 3> by_moved = by_point * cam_from_first.matrix();
   write_pose<2>(by_point, cam_from_first, moved.p, jacobians[1]);
-  write_pose<2>(by_moved * moved.by_point, first_from_board, p_board_, jacobians[2]);
-  write<2, 3>(by_moved * moved.by_direction, jacobians[3]);
-  write<2, 3>(by_moved * moved.by_axis_point, jacobians[4]);
+  write_pose<2>(by_moved * moved.by_point, first_from_board, p_board, jacobians[2]);
+  write<2, 2>(by_moved * moved.by_point * (first_from_board.rotation * Vector3d::UnitZ()) *
+                  corner_.weights.transpose(),
+              jacobians[3]);
+  write<2, 3>(by_moved * moved.by_direction, jacobians[4]);
+  write<2, 3>(by_moved * moved.by_axis_point, jacobians[5]);
   return true;
 }
 
 bool StripeResidual::Evaluate(const double* const* blocks, double* residuals, double** jacobians) const {
   const Pose cam_from_first(blocks[1]), first_from_board(blocks[2]);
-  const Eigen::Map<const Vector3d> n_laser(blocks[3]);
-  const Vector3d z_first = first_from_board.rotation * Vector3d::UnitZ();
-  const Vector3d n_board = cam_from_first.rotation * z_first;
-  const Vector3d origin = cam_from_first * first_from_board.translation;
+  const Eigen::Map<const Vector2d> warp(blocks[3]);
+  const Eigen::Map<const Vector3d> n_laser(blocks[4]);
+  const Vector3d p_local = place_.point(warp), n_local = place_.normal(warp);
+  const Vector3d p_first = first_from_board * p_local, n_first = first_from_board.rotation * n_local;
+  const Vector3d n_board = cam_from_first.rotation * n_first, origin = cam_from_first * p_first;
   // The point X of the three planes n_board.X = n_board.origin, n_laser.X = offset, across.X = 0, by Cramer's
   // rule: a and b are the first two columns of the inverse of the matrix of the normals.
   const Vector3d a = n_laser.cross(across_) / n_board.dot(n_laser.cross(across_));
   const Vector3d b = across_.cross(n_board) / n_board.dot(n_laser.cross(across_));
-  const Vector3d p_cam = n_board.dot(origin) * a + blocks[3][3] * b;
+  const Vector3d p_cam = n_board.dot(origin) * a + blocks[4][3] * b;
   if (!(p_cam.z() > 0)) return false;
   if (!jacobians) {
     residuals[0] = normal_.dot(pixel_of(blocks[0], p_cam) - pixel_) / sigma_px_;
@@ -192,19 +195,39 @@ bool StripeResidual::Evaluate(const double* const* blocks, double* residuals, do
   // dX = a (n_board.d(origin) + (origin - X).d(n_board)) + b (d(offset) - X.d(n_laser))
   const double by_a = by_point * a, by_b = by_point * b;
   const Eigen::RowVector3d by_origin = by_a * n_board.transpose();
-  const Eigen::RowVector3d by_n_board = by_a * (origin - p_cam).transpose();
+  const Eigen::RowVector3d by_normal = by_a * (origin - p_cam).transpose();
   const Matrix3d R = cam_from_first.matrix();
   RowMajor<1, 7> by_camera, by_board;
-  by_camera << by_n_board * rotation_derivative(cam_from_first.rotation, z_first) +
-                   by_origin * rotation_derivative(cam_from_first.rotation, first_from_board.translation),
+  by_camera << by_normal * rotation_derivative(cam_from_first.rotation, n_first) +
+                   by_origin * rotation_derivative(cam_from_first.rotation, p_first),
       by_origin;
-  by_board << by_n_board * R * rotation_derivative(first_from_board.rotation, Vector3d::UnitZ()),
+  by_board << by_normal * R * rotation_derivative(first_from_board.rotation, n_local) +
+                  by_origin * R * rotation_derivative(first_from_board.rotation, p_local),
       by_origin * R;
   write<1, 7>(by_camera, jacobians[1]);
   write<1, 7>(by_board, jacobians[2]);
+  const Matrix3d R_board = R * first_from_board.matrix();
+  Eigen::Matrix<double, 3, 2> normal_by_warp = Eigen::Matrix<double, 3, 2>::Zero();
+  normal_by_warp.topRows<2>() = (-place_.slopes).asDiagonal();
+  write<1, 2>(
+      by_normal * R_board * normal_by_warp + (by_origin * R_board.col(2)) * place_.weights.transpose(),
+      jacobians[3]);
   Eigen::RowVector4d by_plane;
   by_plane << -by_b * p_cam.transpose(), by_b;
-  write<1, 4>(by_plane, jacobians[3]);
+  write<1, 4>(by_plane, jacobians[4]);
+  return true;
+}
+
+bool LensPrior::Evaluate(const double* const* blocks, double* residuals, double** jacobians) const {
+  constexpr double kSigma = 5;
+  std::fill(residuals, residuals + kDistortionTerms, 0.0);
+  Eigen::Matrix<double, kDistortionTerms, kIntrinsics> J;
+  J.setZero();
+  for (const int term : terms_) {
+    residuals[term] = blocks[0][4 + term] / kSigma;
+    J(term, 4 + term) = 1 / kSigma;
+  }
+  if (jacobians) write<kDistortionTerms, kIntrinsics>(J, jacobians[0]);
   return true;
 }
 

@@ -33,6 +33,7 @@ struct RigState {
   std::vector<SensorState> sensors;
   std::vector<Rigid3> first_from_board;  ///< for each pose of Measurements::poses
   std::optional<MotionState> motion;
+  Eigen::Vector2d board_warp_mm = Eigen::Vector2d::Zero();  ///< see board_surface.h
 };
 
 /// One image's measurements. Corners in an order that agrees with the other views of the same pose.
@@ -41,14 +42,15 @@ struct ViewMeasurement {
   int pose = -1;      ///< index into Measurements::poses; -1: the fixed board of the motion
   double travel = 0;  ///< motion views only; mm, or radians
   std::string image;
-  std::vector<Eigen::Vector2d> corners;           ///< px
+  std::vector<Eigen::Vector2d> corners;           ///< px; see is_seen()
   std::vector<std::vector<StripePoint>> stripes;  ///< for each laser plane; thinned to independent points
 };
 
 struct Measurements {
   Target target;
   std::vector<std::string> sensor_names;
-  std::vector<std::array<int, 2>> image_sizes;  ///< px, width and height for each sensor
+  std::vector<std::array<int, 2>> image_sizes;            ///< px, width and height for each sensor
+  std::vector<std::optional<GivenCamera>> given_cameras;  ///< for each sensor
   std::vector<std::string> poses;
   std::vector<ViewMeasurement> views;  ///< sensor by sensor, motion views last
   MotionType motion = MotionType::kNone;

@@ -22,13 +22,16 @@ constexpr double kMaxViewErrorPx = 3;  // a view beyond it has corners in a wron
 std::vector<cv::Point2f> cv_points(const std::vector<Eigen::Vector2d>& corners) {
   std::vector<cv::Point2f> points;
   points.reserve(corners.size());
-  for (const auto& p : corners) points.emplace_back(static_cast<float>(p.x()), static_cast<float>(p.y()));
+  for (const auto& p : corners)
+    if (is_seen(p)) points.emplace_back(static_cast<float>(p.x()), static_cast<float>(p.y()));
   return points;
 }
 
-std::vector<cv::Point3f> cv_board(const Target& target) {
+/// The seen corners on the board.
+std::vector<cv::Point3f> cv_board(const Target& target, const std::vector<Eigen::Vector2d>& corners) {
   std::vector<cv::Point3f> points;
   for (int i = 0; i < target.num_corners(); ++i) {
+    if (!is_seen(corners[static_cast<std::size_t>(i)])) continue;
     const Eigen::Vector2d p = target.corner(i);
     points.emplace_back(static_cast<float>(p.x()), static_cast<float>(p.y()), 0.0f);
   }
@@ -49,7 +52,7 @@ Rigid3 rigid(const cv::Mat& rotation_vector, const cv::Mat& translation) {
 /// plane.
 Eigen::Vector3d rough_normal(const ViewMeasurement& view, const Target& target, double width, double height) {
   std::vector<cv::Point2f> board;
-  for (const auto& p : cv_board(target)) board.emplace_back(p.x, p.y);
+  for (const auto& p : cv_board(target, view.corners)) board.emplace_back(p.x, p.y);
   const cv::Mat H = cv::findHomography(board, cv_points(view.corners));
   if (H.empty()) return Eigen::Vector3d::UnitZ();
   Eigen::Matrix3d pixel_from_board;
@@ -89,9 +92,11 @@ struct CameraStart {
 CameraStart calibrate_camera(const std::vector<const ViewMeasurement*>& views, const Target& target,
                              const std::string& sensor, const std::array<int, 2>& size) {
   std::vector<std::vector<cv::Point2f>> pixels;
-  pixels.reserve(views.size());
-  for (const auto* view : views) pixels.push_back(cv_points(view->corners));
-  const std::vector<std::vector<cv::Point3f>> boards(views.size(), cv_board(target));
+  std::vector<std::vector<cv::Point3f>> boards;
+  for (const auto* view : views) {
+    pixels.push_back(cv_points(view->corners));
+    boards.push_back(cv_board(target, view->corners));
+  }
   cv::Mat K, distortion, per_view;
   std::vector<cv::Mat> rotations, translations;
   try {
@@ -135,11 +140,19 @@ CameraStart calibrate_camera_robustly(InitialValues& values, std::vector<std::si
   }
 }
 
+/// By the corners' rays, so that any lens model serves.
 Rigid3 pose_of(const ViewMeasurement& view, const Target& target, const Camera& camera) {
-  const cv::Mat K = (cv::Mat_<double>(3, 3) << camera.fx, 0, camera.cx, 0, camera.fy, camera.cy, 0, 0, 1);
-  const cv::Mat distortion(1, 5, CV_64F, const_cast<double*>(camera.distortion.data()));
+  std::vector<Eigen::Vector2d> rays = view.corners;
+  for (auto& corner : rays) {
+    const auto ray = is_seen(corner) ? unproject(camera, corner) : std::nullopt;
+    corner = ray ? Eigen::Vector2d(ray->head<2>()) : unseen_corner();
+  }
+  const auto pixels = cv_points(rays);
+  if (pixels.size() < 4)
+    throw NotUsable(view.image + ": no ray of the given camera meets the board; check the camera");
   cv::Mat rotation, translation;
-  cv::solvePnP(cv_board(target), cv_points(view.corners), K, distortion, rotation, translation);
+  cv::solvePnP(cv_board(target, rays), pixels, cv::Mat::eye(3, 3, CV_64F), cv::noArray(), rotation,
+               translation);
   return rigid(rotation, translation);
 }
 
@@ -156,6 +169,14 @@ void start_cameras(InitialValues& values) {
       if (m.views[i].sensor != static_cast<int>(sensor) || m.views[i].pose < 0) continue;
       indices.push_back(i);
       views.push_back(&m.views[i]);
+    }
+    if (m.given_cameras[sensor]) {
+      values.state.sensors.push_back({m.given_cameras[sensor]->camera, {}, {}});
+      for (const std::size_t i : indices) {
+        keep[i] = true;
+        values.cam_from_board[i] = pose_of(m.views[i], m.target, m.given_cameras[sensor]->camera);
+      }
+      continue;
     }
     refuse_parallel_boards(views, m.target, m.sensor_names[sensor], m.image_sizes[sensor]);
     const auto start =

@@ -23,15 +23,15 @@ constexpr double kDegree = std::numbers::pi / 180;
 
 /// d f(state) / d(shared unknowns) by central differences of a twentieth of a sigma.
 template <class F>
-MatrixXd derivative(const JointAdjustment& adjustment, int terms, const F& f) {
+MatrixXd derivative(const JointAdjustment& adjustment, const F& f) {
   constexpr double kMinStep = 1e-6;  // perfect data have a sigma of nothing
   const Eigen::Index n = adjustment.covariance.rows();
   MatrixXd J;
   for (Eigen::Index j = 0; j < n; ++j) {
     const double step = std::max(kMinStep, 0.05 * std::sqrt(adjustment.covariance(j, j)));
     const VectorXd delta = step * VectorXd::Unit(n, j);
-    const VectorXd column = (f(moved_state(adjustment.state, adjustment.globals, delta, terms)) -
-                             f(moved_state(adjustment.state, adjustment.globals, -delta, terms))) /
+    const VectorXd column = (f(moved_state(adjustment.state, adjustment.globals, delta)) -
+                             f(moved_state(adjustment.state, adjustment.globals, -delta))) /
                             (2 * step);
     if (J.size() == 0) J = MatrixXd::Zero(column.size(), n);
     J.col(j) = column;
@@ -41,35 +41,35 @@ MatrixXd derivative(const JointAdjustment& adjustment, int terms, const F& f) {
 
 /// Root of the summed variances of f's components.
 template <class F>
-double total_sigma(const JointAdjustment& adjustment, int terms, const F& f) {
-  const MatrixXd J = derivative(adjustment, terms, f);
+double total_sigma(const JointAdjustment& adjustment, const F& f) {
+  const MatrixXd J = derivative(adjustment, f);
   return std::sqrt((J * adjustment.covariance * J.transpose()).trace());
 }
 
 void add_intrinsics(const JointAdjustment& adjustment, const GlobalBlock& block, const std::string& name,
                     std::map<std::string, double>& sigmas) {
-  static constexpr std::array<const char*, 16> kNames{"fx", "fy", "cx", "cy", "k1", "k2", "p1", "p2",
-                                                      "k3", "k4", "k5", "k6", "s1", "s2", "s3", "s4"};
+  std::vector<std::string_view> names{"fx", "fy", "cx", "cy"};
+  for (const int term : free_terms(block.lens)) names.push_back(kTermNames[static_cast<std::size_t>(term)]);
   for (int i = 0; i < block.size; ++i)
-    sigmas[fmt::format("{}.camera.{}", name, kNames[static_cast<std::size_t>(i)])] =
+    sigmas[fmt::format("{}.camera.{}", name, names[static_cast<std::size_t>(i)])] =
         std::sqrt(adjustment.covariance(block.column + i, block.column + i));
 }
 
-void add_plane(const JointAdjustment& adjustment, const GlobalBlock& block, int terms,
-               const std::string& sensor, std::map<std::string, double>& sigmas) {
+void add_plane(const JointAdjustment& adjustment, const GlobalBlock& block, const std::string& sensor,
+               std::map<std::string, double>& sigmas) {
   const auto s = static_cast<std::size_t>(block.sensor), p = static_cast<std::size_t>(block.plane);
   const auto name = fmt::format("{}.laser_planes.{}", sensor, block.plane);
   const auto normal = [&](const RigState& state) -> VectorXd {
     return state.sensors[s].laser_planes[p].normal;
   };
-  sigmas[name + ".normal_deg"] = total_sigma(adjustment, terms, normal) / kDegree;
+  sigmas[name + ".normal_deg"] = total_sigma(adjustment, normal) / kDegree;
   const int offset = block.column + block.size - 1;
   sigmas[name + ".offset_mm"] = std::sqrt(adjustment.covariance(offset, offset));
 }
 
 /// The sensor's pose in the first sensor's frame.
-void add_pose(const JointAdjustment& adjustment, const GlobalBlock& block, int terms,
-              const std::string& sensor, std::map<std::string, double>& sigmas) {
+void add_pose(const JointAdjustment& adjustment, const GlobalBlock& block, const std::string& sensor,
+              std::map<std::string, double>& sigmas) {
   const auto s = static_cast<std::size_t>(block.sensor);
   const Eigen::Quaterniond mean = adjustment.state.sensors[s].cam_from_first.rotation;
   const auto rotation = [&](const RigState& state) -> VectorXd {
@@ -78,30 +78,31 @@ void add_pose(const JointAdjustment& adjustment, const GlobalBlock& block, int t
   const auto position = [&](const RigState& state) -> VectorXd {
     return state.sensors[s].cam_from_first.inverse().translation;
   };
-  sigmas[sensor + ".pose.rotation_deg"] = total_sigma(adjustment, terms, rotation) / kDegree;
-  sigmas[sensor + ".pose.translation_mm"] = total_sigma(adjustment, terms, position);
+  sigmas[sensor + ".pose.rotation_deg"] = total_sigma(adjustment, rotation) / kDegree;
+  sigmas[sensor + ".pose.translation_mm"] = total_sigma(adjustment, position);
 }
 
 }  // namespace
 
 std::map<std::string, double> parameter_sigmas(const Measurements& measurements,
-                                               const JointAdjustment& adjustment,
-                                               const CalibrationOptions& options) {
+                                               const JointAdjustment& adjustment) {
   using Kind = GlobalBlock::Kind;
-  const int terms = options.distortion_terms;
   std::map<std::string, double> sigmas;
   for (const auto& block : adjustment.globals) {
     const auto& sensor = measurements.sensor_names[static_cast<std::size_t>(block.sensor)];
     if (block.kind == Kind::kIntrinsics) add_intrinsics(adjustment, block, sensor, sigmas);
-    if (block.kind == Kind::kLaserPlane) add_plane(adjustment, block, terms, sensor, sigmas);
-    if (block.kind == Kind::kCamFromFirst) add_pose(adjustment, block, terms, sensor, sigmas);
+    if (block.kind == Kind::kLaserPlane) add_plane(adjustment, block, sensor, sigmas);
+    if (block.kind == Kind::kCamFromFirst) add_pose(adjustment, block, sensor, sigmas);
+    for (int i = 0; block.kind == Kind::kBoardWarp && i < 2; ++i)
+      sigmas[i == 0 ? "board.warp_x_mm" : "board.warp_y_mm"] =
+          std::sqrt(adjustment.covariance(block.column + i, block.column + i));
     if (block.kind == Kind::kDirection)
       sigmas["motion.direction_deg"] =
-          total_sigma(adjustment, terms, [](const RigState& s) -> VectorXd { return s.motion->direction; }) /
+          total_sigma(adjustment, [](const RigState& s) -> VectorXd { return s.motion->direction; }) /
           kDegree;
     if (block.kind == Kind::kAxisPoint)
       sigmas["motion.axis_point_mm"] =
-          total_sigma(adjustment, terms, [](const RigState& s) -> VectorXd { return s.motion->axis_point; });
+          total_sigma(adjustment, [](const RigState& s) -> VectorXd { return s.motion->axis_point; });
   }
   return sigmas;
 }
@@ -155,13 +156,13 @@ MatrixXd without_rigid_motion(const VectorXd& section) {
 }
 
 SectionUncertainty section_uncertainty(const Measurements& measurements, const JointAdjustment& adjustment,
-                                       const Eigen::Vector3d& up, const CalibrationOptions& options) {
+                                       const Eigen::Vector3d& up) {
   const auto samples = section_samples(measurements, adjustment.measurements);
   if (samples.size() < 3) return {};
   const auto section = [&](const RigState& state) {
     return section_of(state, measurements.motion, up, samples);
   };
-  const MatrixXd J = derivative(adjustment, options.distortion_terms, section);
+  const MatrixXd J = derivative(adjustment, section);
   const MatrixXd shape = without_rigid_motion(section(adjustment.state)) * J;
   const auto rms = [&](const MatrixXd& of) {
     return std::sqrt((of * adjustment.covariance).cwiseProduct(of).sum() /

@@ -13,11 +13,10 @@ namespace lightstripe {
 
 /// 1-sigma by name: "gauge.camera.fx" (px; k1.. without unit), "gauge.laser_planes.0.normal_deg" and
 /// ".offset_mm" (camera frame), "field.pose.rotation_deg" and ".translation_mm" (in the first sensor's
-/// frame), "motion.direction_deg", "motion.axis_point_mm". Directions, rotations and points: root of the
-/// summed variances of their components.
+/// frame), "board.warp_x_mm", "motion.direction_deg", "motion.axis_point_mm". Directions, rotations and
+/// points: root of the summed variances of their components.
 std::map<std::string, double> parameter_sigmas(const Measurements& measurements,
-                                               const JointAdjustment& adjustment,
-                                               const CalibrationOptions& options);
+                                               const JointAdjustment& adjustment);
 
 /// Errors of the points (y, z of the rig frame) where the calibration saw stripes, over all sensors together:
 /// root mean square of their length, mm.
@@ -27,7 +26,7 @@ struct SectionUncertainty {
 };
 
 SectionUncertainty section_uncertainty(const Measurements& measurements, const JointAdjustment& adjustment,
-                                       const Eigen::Vector3d& up, const CalibrationOptions& options);
+                                       const Eigen::Vector3d& up);
 
 /// The pixels for which section_uncertainty stands: the used stripe points, at most 150 a laser plane.
 struct SectionSample {

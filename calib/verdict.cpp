@@ -132,10 +132,11 @@ void refuse_bad_adjustment(const Measurements& measurements, const JointAdjustme
           q.name, tilt));
   }
   if (adjustment.covariance.size() == 0)
-    throw NotUsable(
-        "the views leave a direction of the rig open (singular normal matrix); tilt the board to more "
-        "different "
-        "sides and hold it at more different distances");
+    throw NotUsable(fmt::format(
+        "the views leave a direction of the rig open (singular normal matrix; lens model {}); tilt the board "
+        "to more different sides, hold it at more different distances, or choose a leaner lens model "
+        "(calibration.lens: brown4)",
+        enum_name(adjustment.lenses.front())));
 }
 
 void refuse_uncertain_section(const JointAdjustment& adjustment, double shape_sigma_mm) {
@@ -149,12 +150,26 @@ void refuse_uncertain_section(const JointAdjustment& adjustment, double shape_si
                     shape_sigma_mm));
 }
 
+void refuse_oblong_pixels(const Measurements& measurements, const RigState& state) {
+  constexpr double kMaxAspect = 1.04;  // no machine vision camera; a sensor tilted by 10 degrees gives 1.015
+  for (std::size_t s = 0; s < state.sensors.size(); ++s) {
+    const auto& camera = state.sensors[s].camera;
+    const double aspect = camera.fx / camera.fy;
+    if (!measurements.given_cameras[s] && std::max(aspect, 1 / aspect) > kMaxAspect)
+      throw NotUsable(
+          fmt::format("sensor {}: pixels would be {:.2f} times as high as wide; check the pitch of the "
+                      "squares in x and y, "
+                      "and that the images are not scaled",
+                      measurements.sensor_names[s], aspect));
+  }
+}
+
 void refuse_folded_image(const Measurements& measurements, const RigState& state) {
   for (std::size_t s = 0; s < state.sensors.size(); ++s)
     if (!invertible_over_image(state.sensors[s].camera))
       throw NotUsable(fmt::format(
           "sensor {}: the distortion found cannot be inverted over the whole image; bring the board into "
-          "the image's corners, or use fewer distortion_terms",
+          "the image's corners, or choose a leaner lens model (calibration.lens)",
           measurements.sensor_names[s]));
 }
 

@@ -26,6 +26,9 @@ void refuse_bad_adjustment(const Measurements& measurements, const JointAdjustme
 /// Throws NotUsable where the predicted error of the section's shape is out of all proportion to the range.
 void refuse_uncertain_section(const JointAdjustment& adjustment, double shape_sigma_mm);
 
+/// Throws NotUsable where the pixels found are far from square: the pitch of the board is wrong in x or y.
+void refuse_oblong_pixels(const Measurements& measurements, const RigState& state);
+
 /// Throws NotUsable where a camera's distortion is not monotonic over its image.
 void refuse_folded_image(const Measurements& measurements, const RigState& state);
 

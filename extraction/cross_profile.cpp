@@ -3,6 +3,7 @@
 #include "extraction/cross_profile.h"
 
 #include <algorithm>
+#include <type_traits>
 
 namespace lightstripe {
 namespace {
@@ -11,8 +12,18 @@ namespace {
 template <class T>
 double mean_of_three(const PixelLine<T>& line, int index) {
   if (line.count < 3) return line[std::clamp(index, 0, line.count - 1)];
-  const int i = std::clamp(index, 1, line.count - 2);
-  return (line[i - 1] + line[i] + line[i + 1]) * (1.0 / 3.0);
+  const T* at = line.first + std::clamp(index, 1, line.count - 2) * line.step;
+  return static_cast<double>(at[-line.step] + at[0] + at[line.step]) * (1.0 / 3.0);
+}
+
+/// What a grey value has to reach to be above a level: whole grey values are compared as such, which is
+/// faster.
+template <class T>
+auto comparable(double level) {
+  if constexpr (std::is_integral_v<T>)
+    return static_cast<int>(level) + 1;
+  else
+    return static_cast<T>(level);
 }
 
 /// Distances from the centre to where the grey value falls below two levels; -1 where it does not.
@@ -20,26 +31,24 @@ struct Flank {
   double half = -1, foot = -1;
 };
 
+/// One side of the profile, from the pixel `start` on, `step` elements from pixel to pixel, of which `count`
+/// may be looked at. `ahead`: from the centre to the start pixel in that direction, px.
 template <class T>
-Flank measure_flank(const PixelLine<T>& line, double centre, int start, int direction, int reach,
-                    double half_level, double foot_level) {
-  Flank flank;
-  double previous = line[start];
-  const auto place = [&](int k, double grey, double level) {
-    const double part = previous > level ? (previous - level) / (previous - grey) : 0.0;
-    return (start - centre) * direction + k - 1 + part;
+Flank measure_flank(const T* start, std::ptrdiff_t step, int count, double ahead, double half_level,
+                    double foot_level) {
+  const auto place = [&](int k, double level) {
+    const double previous{static_cast<double>(start[(k - 1) * step])},
+        grey{static_cast<double>(start[k * step])};
+    return ahead + k - 1 + (previous > level ? (previous - level) / (previous - grey) : 0.0);
   };
-  for (int k = 1; k <= reach; ++k) {
-    const int index = start + direction * k;
-    if (index < 0 || index >= line.count) return flank;
-    const double grey = line[index];
-    if (flank.half < 0 && grey < half_level) flank.half = place(k, grey, half_level);
-    if (grey < foot_level) {
-      flank.foot = place(k, grey, foot_level);
-      return flank;
-    }
-    previous = grey;
-  }
+  const auto half = comparable<T>(half_level), foot = comparable<T>(foot_level);
+  Flank flank;
+  int k = 1;
+  while (k <= count && start[k * step] >= half) ++k;
+  if (k > count) return flank;
+  flank.half = place(k, half_level);
+  while (k <= count && start[k * step] >= foot) ++k;
+  if (k <= count) flank.foot = place(k, foot_level);
   return flank;
 }
 
@@ -55,12 +64,14 @@ CrossProfile measure_profile(PixelLine<T> line, double centre, int reach) {
   const int near = std::max(2, reach * 2 / 3);
   p.background_left = std::min(mean_of_three(line, c - reach), mean_of_three(line, c - near));
   p.background_right = std::min(mean_of_three(line, c + reach), mean_of_three(line, c + near));
-  const auto flank = [&](int direction, double background) {
+  const T* start = line.first + c * line.step;
+  const auto flank = [&](int direction, int pixels, double background) {
     const double height = p.top - background;
-    return measure_flank(line, centre, c, direction, reach, background + 0.5 * height,
-                         background + kWidthLevel * height);
+    return measure_flank(start, direction * line.step, std::min(reach, pixels), (c - centre) * direction,
+                         background + 0.5 * height, background + kWidthLevel * height);
   };
-  const Flank left = flank(-1, p.background_left), right = flank(+1, p.background_right);
+  const Flank left = flank(-1, c, p.background_left);
+  const Flank right = flank(+1, line.count - 1 - c, p.background_right);
   p.bounded = left.foot >= 0 && right.foot >= 0;
   p.left = left.foot >= 0 ? left.foot : reach;
   p.right = right.foot >= 0 ? right.foot : reach;
@@ -70,5 +81,6 @@ CrossProfile measure_profile(PixelLine<T> line, double centre, int reach) {
 
 template CrossProfile measure_profile<std::uint8_t>(PixelLine<std::uint8_t>, double, int);
 template CrossProfile measure_profile<std::uint16_t>(PixelLine<std::uint16_t>, double, int);
+template CrossProfile measure_profile<float>(PixelLine<float>, double, int);
 
 }  // namespace lightstripe

@@ -10,11 +10,19 @@
 
 namespace lightstripe {
 
+/// Scratch memory.
+struct BendWorkspace {
+  struct Shift {
+    double x = 0, y = 0;  ///< px
+  };
+  std::vector<Shift> shifts;
+  std::vector<float> joined;
+};
+
 /// Moves points by sigma^2 / 2 times the line's curvature to the outer side: the heat equation in polar
 /// coordinates, f_t = (f_rr + f_r / r) / 2, drifts a ring of radius r inwards by sigma^2 / (2 r). The
 /// curvature comes from a quadratic fit over about 3 sigma to both sides and counts only as far as it stands
 /// out of the points' sigma_px.
-void correct_curvature_bias(const DerivativeKernels& kernels, LineSet& lines,
-                            std::vector<StripePoint>& scratch, std::vector<float>& joined);
+void correct_curvature_bias(const DerivativeKernels& kernels, LineSet& lines, BendWorkspace& workspace);
 
 }  // namespace lightstripe

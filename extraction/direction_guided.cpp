@@ -3,12 +3,11 @@
 #include "extraction/direction_guided.h"
 
 #include <algorithm>
-#include <array>
-#include <bit>
 #include <cmath>
+#include <numbers>
 
+#include "extraction/binned_image.h"
 #include "extraction/direction_guided_step.h"
-#include "extraction/kernels_scan.h"
 
 namespace lightstripe {
 namespace {
@@ -16,55 +15,32 @@ namespace {
 /// No line begins with fewer labels left than a long one uses.
 constexpr std::uint16_t kLastLabel = 60000;
 
-/// Rows that are searched for first points: thin stripes need each second one, a line of w >= 4 px each
-/// fourth.
-int seed_row_step(double sigma) { return std::clamp(static_cast<int>(sigma), 1, 4); }
+/// Cells of the mask, about as large as the kernel's scale: fine enough for stripes of that scale, and no
+/// smaller than an evaluation's stride.
+int mask_cell_shift(double sigma) { return sigma < 2 ? 0 : sigma < 3 ? 1 : 2; }
 
-/// Pixels that stand out over both neighbours at the stripe's full width: candidates for first points.
+/// First points come from the image itself, or from means of blocks where single pixels are too noisy.
 template <class T>
-void collect_seeds(ImageView<T> image, double sigma, const RidgeLimits& limits, double brightest,
-                   DirectionGuidedWorkspace<T>& w) {
-  const double level = limits.hard_levels ? limits.level_high : limits.level_low;
-  ScanRule<T> rule;
-  rule.level = static_cast<T>(std::clamp(std::ceil(level), 0.0, brightest));
-  rule.contrast = static_cast<T>(std::max(1.0, std::ceil(limits.start_contrast)));
-  rule.reach = std::max(2, static_cast<int>(std::lround(3.2 * sigma)));
-  w.seeds.clear();
-  w.zeros.assign(static_cast<std::size_t>(image.width), T{});
-  w.candidate_masks.resize(static_cast<std::size_t>((image.width + 63) / 64));
-  const int step = seed_row_step(sigma);
-  // Of a wide stripe every second pixel of the row is enough, too.
-  const std::uint64_t columns = step >= 2 ? 0x5555555555555555ULL : ~0ULL;
-  for (int y = step / 2; y < image.height; y += step) {
-    const ScanRow<T> row{image.row(y), y >= rule.reach ? image.row(y - rule.reach) : w.zeros.data(),
-                         y + rule.reach < image.height ? image.row(y + rule.reach) : w.zeros.data()};
-    const auto add = [&](int x) {
-      const double contrast = candidate_contrast(row, x, image.width, rule.reach);
-      if (contrast < rule.contrast || row.centre[x] < rule.level) return;
-      w.seeds.push_back({x, y, static_cast<std::int32_t>(contrast * (255.0 / brightest)),
-                         row.centre[x] >= limits.level_high});
-    };
-    for (int x = 0; x < std::min(rule.reach, image.width); ++x) add(x);
-    if (mark_candidates(row, image.width, rule, w.candidate_masks.data()))
-      for (std::size_t word = 0; word < w.candidate_masks.size(); ++word)
-        for (std::uint64_t bits = w.candidate_masks[word] & columns; bits != 0; bits &= bits - 1)
-          add(static_cast<int>(word * 64) + std::countr_zero(bits));
-    for (int x = std::max(image.width - rule.reach, rule.reach); x < image.width; ++x) add(x);
+void look_for_seeds(ImageView<T> image, double sigma, const RidgeLimits& limits, double brightest,
+                    DirectionGuidedWorkspace<T>& w) {
+  SeedRule rule;
+  rule.level = limits.hard_levels ? limits.level_high : limits.level_low;
+  rule.foreground = limits.level_high;
+  rule.contrast = limits.start_contrast;
+  rule.sigma = sigma;
+  rule.brightest = brightest;
+  if (limits.seed_block <= 1) {
+    find_seeds(image, rule, w.seeds);
+    return;
   }
-}
-
-/// Foreground before undecided pixels, then by falling contrast, then in reading order (a counting sort).
-template <class T>
-void sort_seeds(DirectionGuidedWorkspace<T>& w) {
-  constexpr std::int32_t kRanks = 512;
-  const auto rank = [](const LineSeed& s) {
-    return static_cast<std::size_t>(kRanks - 1 - ((s.foreground ? 256 : 0) + std::min(s.rank, 255)));
-  };
-  std::array<std::size_t, kRanks + 1> first{};
-  for (const LineSeed& s : w.seeds) ++first[rank(s) + 1];
-  for (std::size_t i = 1; i < first.size(); ++i) first[i] += first[i - 1];
-  w.sorted_seeds.resize(w.seeds.size());
-  for (const LineSeed& s : w.seeds) w.sorted_seeds[first[rank(s)]++] = s;
+  const int block = limits.seed_block;
+  bin_image(image, block, w.binned);
+  rule.sigma = sigma / block;
+  find_seeds(w.binned.view(), rule, w.seeds);
+  for (LineSeed& seed : w.seeds.sorted) {
+    seed.x = seed.x * block + block / 2;
+    seed.y = seed.y * block + block / 2;
+  }
 }
 
 /// Follows the line through `start` to both ends and appends it, if it has a few points.
@@ -89,34 +65,68 @@ void follow_both_ways(const RidgeFinder<T>& finder, const RidgePlace& start, Lin
   }
 }
 
+/// Tries one place; false where no line begins.
+template <class T>
+bool try_seed(const RidgeFinder<T>& finder, int x, int y, LineLabels& labels, DirectionGuidedWorkspace<T>& w,
+              LineSet& lines) {
+  if (w.mask(x, y) != ExclusionMask::kFree) return false;
+  const auto start = finder.first_point(x, y);
+  const auto sx = start ? static_cast<int>(std::lround(start->x)) : x;
+  const auto sy = start ? static_cast<int>(std::lround(start->y)) : y;
+  if (!start || !finder.image.contains(sx, sy) || w.mask(sx, sy) != ExclusionMask::kFree) {
+    w.mask.mark_row(y, x, 1.0, ExclusionMask::kDead);
+    return false;
+  }
+  const std::size_t before = lines.lines.size();
+  follow_both_ways(finder, *start, labels, w, lines);
+  return lines.lines.size() > before;
+}
+
+/// The free ridge nearest to the hint, on rings around it.
+template <class T>
+void follow_from_hint(const RidgeFinder<T>& finder, const FollowRule& rule, LineLabels& labels,
+                      DirectionGuidedWorkspace<T>& w, LineSet& lines) {
+  const int reach = static_cast<int>(8 * finder.kernels.sigma);
+  for (int r = 0; r <= reach; r += 2)
+    for (int k = 0; k < std::max(1, 4 * r); ++k) {
+      const double angle = 2 * std::numbers::pi * k / std::max(1, 4 * r);
+      const auto x = static_cast<int>(std::lround(rule.start_x + r * std::cos(angle)));
+      const auto y = static_cast<int>(std::lround(rule.start_y + r * std::sin(angle)));
+      if (finder.image.contains(x, y) && try_seed(finder, x, y, labels, w, lines)) return;
+    }
+}
+
+bool enough_lines(const FollowRule& rule, const LineSet& lines) {
+  if (rule.stop_after == 0) return false;
+  const auto count = std::count_if(lines.lines.begin(), lines.lines.end(), [&](const LineRange& r) {
+    return static_cast<double>(r.size()) >= rule.least_length;
+  });
+  return count >= rule.stop_after;
+}
+
 }  // namespace
 
 template <class T>
 void follow_lines(ImageView<T> image, const DerivativeKernels& kernels, const RidgeLimits& limits,
-                  double brightest, DirectionGuidedWorkspace<T>& workspace, LineSet& lines) {
-  if (image.empty() || brightest <= 0) return;
-  workspace.mask.reset(image.width, image.height);
-  collect_seeds(image, kernels.sigma, limits, brightest, workspace);
-  sort_seeds(workspace);
+                  const FollowRule& rule, DirectionGuidedWorkspace<T>& workspace, LineSet& lines) {
+  if (image.empty() || rule.brightest <= 0) return;
+  workspace.mask.reset(image.width, image.height, mask_cell_shift(kernels.sigma));
   const RidgeFinder<T> finder{image, kernels, limits, workspace.border_window};
   LineLabels labels{0, 0};
-  for (const LineSeed& seed : workspace.sorted_seeds) {
-    if (workspace.mask(seed.x, seed.y) != ExclusionMask::kFree) continue;
-    const auto start = finder.first_point(seed.x, seed.y);
-    const auto sx = start ? static_cast<int>(std::lround(start->x)) : seed.x;
-    const auto sy = start ? static_cast<int>(std::lround(start->y)) : seed.y;
-    if (!start || !image.contains(sx, sy) || workspace.mask(sx, sy) != ExclusionMask::kFree) {
-      workspace.mask.mark_row(seed.y, seed.x, 1.0, ExclusionMask::kDead);
-      continue;
-    }
+  if (rule.has_start) follow_from_hint(finder, rule, labels, workspace, lines);
+  if (enough_lines(rule, lines)) return;
+  look_for_seeds(image, kernels.sigma, limits, rule.brightest, workspace);
+  for (const LineSeed& seed : workspace.seeds.sorted) {
     if (labels.current >= kLastLabel) break;
-    follow_both_ways(finder, *start, labels, workspace, lines);
+    if (try_seed(finder, seed.x, seed.y, labels, workspace, lines) && enough_lines(rule, lines)) break;
   }
 }
 
-template void follow_lines<std::uint8_t>(ImageView8, const DerivativeKernels&, const RidgeLimits&, double,
-                                         DirectionGuidedWorkspace<std::uint8_t>&, LineSet&);
-template void follow_lines<std::uint16_t>(ImageView16, const DerivativeKernels&, const RidgeLimits&, double,
-                                          DirectionGuidedWorkspace<std::uint16_t>&, LineSet&);
+template void follow_lines<std::uint8_t>(ImageView8, const DerivativeKernels&, const RidgeLimits&,
+                                         const FollowRule&, DirectionGuidedWorkspace<std::uint8_t>&,
+                                         LineSet&);
+template void follow_lines<std::uint16_t>(ImageView16, const DerivativeKernels&, const RidgeLimits&,
+                                          const FollowRule&, DirectionGuidedWorkspace<std::uint16_t>&,
+                                          LineSet&);
 
 }  // namespace lightstripe

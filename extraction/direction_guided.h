@@ -4,54 +4,40 @@
 // of light stripe images", Adv. Mech. Eng. 2013, 456927, section 3.2, steps 2 to 5.
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
 #include "core/image.h"
 #include "extraction/exclusion_mask.h"
 #include "extraction/kernels.h"
+#include "extraction/line_seeds.h"
 #include "extraction/line_set.h"
+#include "extraction/ridge_limits.h"
 
 namespace lightstripe {
-
-/// What a ridge must have to be followed. Strengths: -second derivative across, grey levels / px^2.
-struct RidgeLimits {
-  double level_low = 0;        ///< T_l, grey levels: no line begins below it
-  double level_high = 0;       ///< T_h: lines begin here first
-  bool hard_levels = false;    ///< given by the user: nothing below T_l is followed, no line begins below T_h
-  double start_contrast = 1;   ///< grey levels over the surroundings, for a first point
-  double start_strength = 0;   ///< for a first point
-  double follow_strength = 0;  ///< for further points
-  double shaded_strength = 0;  ///< for further points darker than T_l
-  double strength_noise = 0;   ///< standard deviation of strengths by the image noise
-  double clear_strength = 0;   ///< from here on the direction of one point is sure
-  double relative_strength = 0.015;  ///< of the line's strongest recent point, for further points
-  int largest_gap = 8;               ///< px, looked ahead along the direction before a line ends
-  int largest_filled_gap = 4;        ///< px, gaps up to here get bridged points
-};
-
-/// One place where a line may begin.
-struct LineSeed {
-  std::int32_t x = 0, y = 0;
-  std::int32_t rank = 0;  ///< contrast, 0..255 of the strongest
-  bool foreground = false;
-};
 
 /// Buffers of the method, kept from frame to frame. One a thread.
 template <class T>
 struct DirectionGuidedWorkspace {
   ExclusionMask mask;
-  std::vector<LineSeed> seeds, sorted_seeds;
-  std::vector<std::uint64_t> candidate_masks;
-  std::vector<T> zeros;
+  SeedWorkspace seeds;
+  Image<T> binned;
   std::vector<T> border_window;
   std::vector<StripePoint> backward;
 };
 
+/// Where following begins and when it may stop.
+struct FollowRule {
+  double brightest = 0;  ///< the image's largest grey level
+  bool has_start = false;
+  double start_x = 0, start_y = 0;  ///< px: the first line begins at the ridge nearest to this place
+  int stop_after = 0;               ///< lines of at least `least_length` px; 0 = never
+  double least_length = 0;
+};
+
 /// Appends the lines of `image` to `lines` (x, y, normal, strength and flags are set), brightest first points
-/// first. `brightest`: the image's largest grey level.
+/// first.
 template <class T>
 void follow_lines(ImageView<T> image, const DerivativeKernels& kernels, const RidgeLimits& limits,
-                  double brightest, DirectionGuidedWorkspace<T>& workspace, LineSet& lines);
+                  const FollowRule& rule, DirectionGuidedWorkspace<T>& workspace, LineSet& lines);
 
 }  // namespace lightstripe

@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "extraction/direction_guided.h"
-
 namespace lightstripe {
 namespace {
 

@@ -11,10 +11,9 @@
 #include "core/stripe.h"
 #include "extraction/kernels.h"
 #include "extraction/line_point.h"
+#include "extraction/ridge_limits.h"
 
 namespace lightstripe {
-
-struct RidgeLimits;
 
 /// Nearest whole number (a pixel's column or row) of a coordinate of at least -1e6; faster than lround.
 inline int nearest_pixel(double coordinate) { return static_cast<int>(coordinate + 1000000.5) - 1000000; }

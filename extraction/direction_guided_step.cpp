@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "extraction/bridge.h"
-#include "extraction/direction_guided.h"
+#include "extraction/direction_guided_between.h"
 
 namespace lightstripe {
 namespace {
@@ -18,6 +18,8 @@ struct Tip {
   Direction direction;
   double recent_strength = 0;  ///< decaying maximum
   int disturbed_steps = 0;
+  int steady_steps = 0;  ///< plain steps since something else happened
+  RidgePlace last;       ///< with steady_steps > 0: the point itself
 };
 
 /// Where a line goes on beyond a gap, a crossing or a spot.
@@ -30,7 +32,12 @@ template <class T>
 class Follower {
  public:
   Follower(const RidgeFinder<T>& finder, ExclusionMask& mask, LineLabels& labels)
-      : finder_(finder), limits_(finder.limits), mask_(mask), labels_(labels), previous_(labels.first) {
+      : finder_(finder),
+        limits_(finder.limits),
+        mask_(mask),
+        labels_(labels),
+        previous_(labels.first),
+        stride_(evaluation_stride(finder.kernels.sigma)) {
     renew_label();
   }
 
@@ -55,6 +62,7 @@ class Follower {
   std::optional<Landing> look_ahead(const Tip& tip, int nearest, bool far) const;
   bool go_on(std::size_t before, Tip& tip, std::vector<StripePoint>& out);
   bool leap(Tip& tip, std::size_t before, bool far, std::vector<StripePoint>& out);
+  bool stride(Tip& tip, std::vector<StripePoint>& out);
   void advance(Tip& tip, const RidgePlace& p, std::vector<StripePoint>& out);
 
   /// Long enough that the marks around a bend's inner side are still recent.
@@ -68,6 +76,7 @@ class Follower {
   ExclusionMask& mask_;
   LineLabels& labels_;
   std::uint16_t previous_;  ///< at first the other way's label next to the start
+  int stride_;              ///< columns (rows) from one evaluation to the next on a plain line
 };
 
 /// The place `steps` columns (rows) ahead on the straight continuation, `aside` px beside it.
@@ -164,7 +173,7 @@ std::optional<Landing> Follower<T>::look_ahead(const Tip& tip, int nearest, bool
     const auto found = finder_.find(search);
     if (!found || !is_free(found->x, found->y)) continue;
     // One point may be noise, or still be drawn aside by what was crossed: further ones have to agree.
-    const Tip landed{found->x, found->y, found->direction, tip.recent_strength, 0};
+    const Tip landed{found->x, found->y, found->direction, tip.recent_strength, 0, 0, {}};
     RidgeSearch next = predict(landed, landed.direction, confirmed_after, 0);
     next.reach = 0.75;
     next.least_cosine = 0.98;
@@ -185,6 +194,8 @@ void Follower<T>::advance(Tip& tip, const RidgePlace& p, std::vector<StripePoint
   tip.y = p.y;
   tip.recent_strength = std::max(0.95 * tip.recent_strength, p.strength);
   tip.disturbed_steps = clear ? 0 : tip.disturbed_steps + 1;
+  tip.steady_steps = clear ? tip.steady_steps + 1 : 0;
+  tip.last = p;
   out.push_back(to_stripe_point(p));
   mark(p);
 }
@@ -203,7 +214,7 @@ bool Follower<T>::leap(Tip& tip, std::size_t before, bool far, std::vector<Strip
     const StripePoint& p = out[out.size() - 1 - doubtful];
     const StripePoint& q = out[out.size() - kBase - doubtful];
     const double dx = p.x - q.x, dy = p.y - q.y, length = std::hypot(dx, dy);
-    base = {p.x, p.y, {dx / length, dy / length}, tip.recent_strength, 0};
+    base = {p.x, p.y, {dx / length, dy / length}, tip.recent_strength, 0, 0, {}};
   }
   // Always beyond the tip, so that following gets on.
   const auto landing = look_ahead(base, retreats ? static_cast<int>(doubtful) + 2 : 2, far);
@@ -221,12 +232,35 @@ bool Follower<T>::leap(Tip& tip, std::size_t before, bool far, std::vector<Strip
   tip = base;
   tip.direction = landing->place.direction;
   advance(tip, landing->place, out);
+  tip.steady_steps = 0;
+  return true;
+}
+
+/// Where the line runs on plainly, several columns (rows) at once; the points between are interpolated.
+template <class T>
+bool Follower<T>::stride(Tip& tip, std::vector<StripePoint>& out) {
+  constexpr int kSteady = 3;
+  if (stride_ == 1 || tip.steady_steps < kSteady) return false;
+  const int steady_steps = tip.steady_steps;
+  tip.steady_steps = 1;  // unless it goes well, single steps come next
+  const RidgeSearch ahead = predict(tip, tip.direction, stride_, 0);
+  if (!is_free(ahead.x, ahead.y)) return false;
+  const auto found = finder_.find(ahead);
+  if (!found || found->clarity != RidgeClarity::kClear ||
+      found->direction.column_wise() != tip.last.direction.column_wise() ||
+      tip.last.direction.column_wise() != tip.direction.column_wise() ||
+      found->strength < 0.5 * tip.recent_strength)
+    return false;
+  append_between(tip.last, *found, stride_, out);
+  advance(tip, *found, out);
+  tip.steady_steps = steady_steps;
   return true;
 }
 
 /// One step; false at the end of the line.
 template <class T>
 bool Follower<T>::go_on(std::size_t before, Tip& tip, std::vector<StripePoint>& out) {
+  if (stride(tip, out)) return true;
   const RidgeSearch ahead = predict(tip, tip.direction, 1, 0);
   const auto found = is_free(ahead.x, ahead.y) ? finder_.find(ahead) : std::nullopt;
   const bool disturbed = found && found->clarity == RidgeClarity::kDisturbed;
@@ -244,6 +278,7 @@ bool Follower<T>::go_on(std::size_t before, Tip& tip, std::vector<StripePoint>& 
   if (!next) next = around_corner(tip, ahead);
   if (next) {
     advance(tip, *next, out);
+    tip.steady_steps = 0;
     return true;
   }
   return !far && leap(tip, before, false, out);
@@ -254,12 +289,13 @@ bool Follower<T>::run(const RidgePlace& start, std::vector<StripePoint>& out) {
   constexpr std::size_t kWindow = 8;
   const std::size_t before = out.size();
   const std::size_t most = 4 * static_cast<std::size_t>(finder_.image.width + finder_.image.height);
-  Tip tip{start.x, start.y, start.direction, start.strength, 0};
+  Tip tip{start.x, start.y, start.direction, start.strength, 0, 0, {}};
   std::size_t next_label = label_length();
   while (out.size() - before < most) {
     if (!go_on(before, tip, out)) return false;
     const std::size_t steps = out.size() - before;
-    if (steps > 12 && std::abs(tip.x - start.x) <= 1.0 && std::abs(tip.y - start.y) <= 1.0) return true;
+    if (steps > 12 && std::abs(tip.x - start.x) <= stride_ && std::abs(tip.y - start.y) <= stride_)
+      return true;
     // Curling up on a spot instead of going on.
     if (steps > kWindow) {
       const StripePoint& past = out[out.size() - 1 - kWindow];

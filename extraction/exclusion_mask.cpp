@@ -3,53 +3,70 @@
 #include "extraction/exclusion_mask.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace lightstripe {
 
-void ExclusionMask::reset(int width, int height) {
-  const std::size_t size = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-  if (width == width_ && height == height_) {
+void ExclusionMask::reset(int width, int height, int cell_shift) {
+  const int size = 1 << cell_shift;
+  const int columns = (width + size - 1) / size, rows = (height + size - 1) / size;
+  if (columns == columns_ && rows == rows_) {
     for (const Run& run : runs_)
       for (std::uint32_t i = 0; i < run.count; ++i) labels_[run.first + i * run.step] = kFree;
   } else {
-    labels_.assign(size, kFree);
-    width_ = width;
-    height_ = height;
+    columns_ = columns;
+    rows_ = rows;
+    labels_.assign(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), kFree);
   }
+  shift_ = cell_shift;
   runs_.clear();
+  last_label_ = kFree;
+}
+
+ExclusionMask::CellRange ExclusionMask::cells(double centre, double half, int count) const {
+  const double scale = 1.0 / (1 << shift_), middle = 0.5 * ((1 << shift_) - 1);
+  // Truncation is floor from 0 on, and what lies before 0 is clamped there anyway.
+  const double low = (centre - half - middle) * scale, high = (centre + half - middle) * scale;
+  const int first = low > 0 ? std::min(static_cast<int>(low + 1.0), count) : 0;
+  const int last = high >= 0 ? std::min(static_cast<int>(high), count - 1) : -1;
+  return {first, last};
 }
 
 void ExclusionMask::mark(const Run& run, std::uint16_t label) {
+  // The steps inside one cell mark the same.
+  if (label == last_label_ && !runs_.empty() && runs_.back() == run) return;
+  last_label_ = label;
   for (std::uint32_t i = 0; i < run.count; ++i) {
-    std::uint16_t& pixel = labels_[run.first + i * run.step];
-    if (pixel == kFree || pixel == kDead) pixel = label;
+    std::uint16_t& cell = labels_[run.first + i * run.step];
+    if (cell == kFree || cell == kDead) cell = label;
   }
   runs_.push_back(run);
 }
 
 void ExclusionMask::mark_column(int x, double centre, double half, std::uint16_t label) {
-  const int first = std::max(0, static_cast<int>(std::ceil(centre - half)));
-  const int last = std::min(height_ - 1, static_cast<int>(std::floor(centre + half)));
-  if (x < 0 || x >= width_ || last < first) return;
-  mark({index(x, first), static_cast<std::uint32_t>(last - first + 1), static_cast<std::uint32_t>(width_)},
+  const auto [first, last] = cells(centre, half, rows_);
+  const int column = x >> shift_;
+  if (x < 0 || column >= columns_ || last < first) return;
+  mark({static_cast<std::uint32_t>(index(column, first)), static_cast<std::uint32_t>(last - first + 1),
+        static_cast<std::uint32_t>(columns_)},
        label);
 }
 
 void ExclusionMask::mark_row(int y, double centre, double half, std::uint16_t label) {
-  const int first = std::max(0, static_cast<int>(std::ceil(centre - half)));
-  const int last = std::min(width_ - 1, static_cast<int>(std::floor(centre + half)));
-  if (y < 0 || y >= height_ || last < first) return;
-  mark({index(first, y), static_cast<std::uint32_t>(last - first + 1), 1}, label);
+  const auto [first, last] = cells(centre, half, columns_);
+  const int row = y >> shift_;
+  if (y < 0 || row >= rows_ || last < first) return;
+  mark({static_cast<std::uint32_t>(index(first, row)), static_cast<std::uint32_t>(last - first + 1), 1},
+       label);
 }
 
 void ExclusionMask::relabel(std::size_t from_checkpoint, std::uint16_t first, std::uint16_t last,
                             std::uint16_t to) {
+  last_label_ = kFree;
   for (std::size_t r = from_checkpoint; r < runs_.size(); ++r) {
     const Run& run = runs_[r];
     for (std::uint32_t i = 0; i < run.count; ++i) {
-      std::uint16_t& pixel = labels_[run.first + i * run.step];
-      if (pixel >= first && pixel <= last) pixel = to;
+      std::uint16_t& cell = labels_[run.first + i * run.step];
+      if (cell >= first && cell <= last) cell = to;
     }
   }
 }

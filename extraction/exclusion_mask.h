@@ -9,17 +9,18 @@
 
 namespace lightstripe {
 
-/// A label a pixel; clearing costs only what was marked.
+/// A label a square cell of pixels; clearing costs only what was marked.
 class ExclusionMask {
  public:
   static constexpr std::uint16_t kFree = 0;
   static constexpr std::uint16_t kDead =
       0xFFFF;  ///< looked at and found to be no line: no start, but no obstacle
 
-  void reset(int width, int height);
+  /// All free; cells of 2^cell_shift x 2^cell_shift pixels.
+  void reset(int width, int height, int cell_shift);
 
-  std::uint16_t operator()(int x, int y) const { return labels_[index(x, y)]; }
-  /// Marks free pixels of the column x (or row y), `half` px to both sides of `centre`.
+  std::uint16_t operator()(int x, int y) const { return labels_[index(x >> shift_, y >> shift_)]; }
+  /// Marks free cells of the column x (or row y) whose centres lie within `half` px of `centre`.
   void mark_column(int x, double centre, double half, std::uint16_t label);
   void mark_row(int y, double centre, double half, std::uint16_t label);
   /// How many runs were marked so far; a later relabel() changes the labels
@@ -29,16 +30,22 @@ class ExclusionMask {
 
  private:
   struct Run {
-    std::size_t first;
-    std::uint32_t count;
-    std::uint32_t step;
+    std::uint32_t first, count, step;
+    bool operator==(const Run&) const = default;
   };
-  std::size_t index(int x, int y) const {
-    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
+  struct CellRange {
+    int first, last;
+  };
+  std::size_t index(int column, int row) const {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
+           static_cast<std::size_t>(column);
   }
+  CellRange cells(double centre, double half, int count) const;
   void mark(const Run& run, std::uint16_t label);
 
-  int width_ = 0, height_ = 0;
+  int shift_ = 0;
+  std::uint16_t last_label_ = kFree;  ///< of the last run, unless it was changed since
+  int columns_ = 0, rows_ = 0;
   std::vector<std::uint16_t> labels_;
   std::vector<Run> runs_;
 };

@@ -3,17 +3,18 @@
 #include "extraction/extract_stripes.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <limits>
 #include <numbers>
-#include <string_view>
 
-#include "core/error.h"
-#include "extraction/centroid.h"
+#include "extraction/binned_image.h"
 #include "extraction/curvature_bias.h"
+#include "extraction/grey_value_lines.h"
+#include "extraction/hu_recursive.h"
+#include "extraction/image_facts.h"
 #include "extraction/line_measure.h"
-#include "extraction/noise.h"
+#include "extraction/line_noise.h"
+#include "extraction/parsed_options.h"
+#include "extraction/smoothing.h"
 #include "extraction/steger.h"
 #include "extraction/stripe_width.h"
 #include "extraction/workspace.h"
@@ -22,144 +23,88 @@
 namespace lightstripe {
 namespace {
 
-constexpr double kLeastSigma = 0.7;  // px; below it the pixels no longer carry the derivatives
-constexpr double kLargestSigma = 20;
-
-struct LevelPair {
-  double low = 0, high = 0;
+/// One extraction: what is given, what is known of the image, and where the work goes on.
+template <class T>
+struct Run {
+  ImageView<T> image;
+  const ExtractionOptions& options;
+  const ParsedOptions& parsed;
+  ImageFacts facts;
+  ExtractionWorkspace& w;
+  ExtractionResult& result;
 };
-
-/// "LOW,HIGH" in grey levels; nothing for "auto".
-std::optional<LevelPair> given_levels(const std::string& text) {
-  if (text == "auto") return std::nullopt;
-  LevelPair pair;
-  const char* end = text.data() + text.size();
-  const auto [comma, error] = std::from_chars(text.data(), end, pair.low);
-  const bool low_ok = error == std::errc{} && comma != end && *comma == ',';
-  const auto rest = low_ok ? std::from_chars(comma + 1, end, pair.high) : std::from_chars_result{};
-  if (!low_ok || rest.ec != std::errc{} || rest.ptr != end || !(pair.low >= 0) || !(pair.high >= pair.low))
-    throw Error("thresholds", "'" + text + "' is not a pair of grey levels",
-                "write auto, or LOW,HIGH with 0 <= LOW <= HIGH");
-  return pair;
-}
-
-void require(bool ok, const char* option, double value, const char* rule) {
-  if (!ok)
-    throw Error(option, "the value " + std::to_string(value) + " is out of range",
-                std::string("give ") + rule);
-}
-
-void check_options(const ExtractionOptions& o) {
-  const double largest_width = 2 * std::numbers::sqrt3 * kLargestSigma;
-  if (o.stripe_width)
-    require(*o.stripe_width >= 1 && *o.stripe_width <= largest_width, "stripe_width", *o.stripe_width,
-            "a full width of 1 to 69 px");
-  if (o.sigma)
-    require(*o.sigma >= kLeastSigma && *o.sigma <= kLargestSigma, "sigma", *o.sigma, "0.7 to 20 px");
-  if (o.alpha) require(*o.alpha >= 0 && *o.alpha <= 1, "alpha", *o.alpha, "a weight of 0 to 1");
-  require(o.beta >= 0 && o.beta <= 1, "beta", o.beta, "a weight of 0 to 1");
-  require(o.max_lines >= 0, "max_lines", o.max_lines, "0 (all) or a number of lines");
-  require(o.lines.min_length >= 0, "lines.min_length", o.lines.min_length, "0 or more stripe widths");
-  require(o.lines.max_width_ratio > 1, "lines.max_width_ratio", o.lines.max_width_ratio, "a ratio above 1");
-  require(o.lines.spot_width_ratio > 1, "lines.spot_width_ratio", o.lines.spot_width_ratio,
-          "a ratio above 1");
-}
 
 double sigma_of_width(double full_width) {
   return std::clamp(full_width / (2 * std::numbers::sqrt3), kLeastSigma, kLargestSigma);
 }
 
-/// What the image as a whole says, before any line is looked for.
-struct ImageFacts {
-  Histogram histogram;
-  double noise = 0;
-  double seed_contrast = 0;  ///< grey levels: less than this over the surroundings is noise
-};
-
-/// Statistics need some 100 000 pixels, whatever the image's size; the brightest pixel is looked for in all.
 template <class T>
-ImageFacts look_at(ImageView<T> image) {
-  constexpr double kEnoughPixels = 40000;
-  const double pixels = static_cast<double>(image.width) * image.height;
-  const int row_step =
-      std::clamp(static_cast<int>(pixels / kEnoughPixels), 1, std::max(1, image.height / 32));
-  ImageFacts facts;
-  facts.histogram = compute_histogram(image, row_step);
-  facts.noise = estimate_noise(image, 4 * row_step);
-  facts.seed_contrast = std::max(4.0, 5.0 * facts.noise);
-  return facts;
-}
-
-void choose_levels(const ImageFacts& facts, const ExtractionOptions& options, ExtractionResult& result) {
-  if (const auto given = given_levels(options.thresholds)) {
-    result.levels = {};
-    result.threshold_low = given->low;
-    result.threshold_high = given->high;
-    return;
+std::optional<double> choose_sigma(const Run<T>& run) {
+  if (run.options.sigma) return *run.options.sigma;
+  if (run.options.stripe_width) return sigma_of_width(*run.options.stripe_width);
+  const int block = seed_block(run.facts);
+  const double contrast = seed_contrast(run.facts.noise, block);
+  if (block == 1) {
+    const auto width = estimate_stripe_width(run.image, run.result.threshold_low, contrast);
+    return width ? std::optional(sigma_of_width(*width)) : std::nullopt;
   }
-  ThresholdOptions threshold_options;
-  threshold_options.alpha = options.alpha;
-  threshold_options.beta = options.beta;
-  result.levels = compute_bilevel_thresholds(facts.histogram, threshold_options);
-  result.threshold_low = result.levels.low;
-  result.threshold_high = result.levels.high;
+  Image<T>& binned = run.w.template direction_guided<T>().binned;
+  bin_image(run.image, block, binned);
+  const auto width = estimate_stripe_width(binned.view(), 0, contrast);
+  return width ? std::optional(sigma_of_width(*width * block)) : std::nullopt;
+}
+
+/// Where following begins and when it may stop; in the region's pixels.
+template <class T>
+FollowRule follow_rule(const Run<T>& run) {
+  FollowRule rule;
+  rule.brightest = run.facts.histogram.largest;
+  rule.stop_after = run.options.stop_after;
+  rule.least_length = run.options.lines.min_length * 2 * std::numbers::sqrt3 * run.result.sigma;
+  if (!run.parsed.start) return rule;
+  rule.has_start = true;
+  rule.start_x = run.parsed.start->x - (run.parsed.roi ? run.parsed.roi->x : 0);
+  rule.start_y = run.parsed.start->y - (run.parsed.roi ? run.parsed.roi->y : 0);
+  return rule;
 }
 
 template <class T>
-std::optional<double> choose_sigma(ImageView<T> image, const ExtractionOptions& options,
-                                   const ImageFacts& facts, double level) {
-  if (options.sigma) return *options.sigma;
-  if (options.stripe_width) return sigma_of_width(*options.stripe_width);
-  const auto width = estimate_stripe_width(image, level, facts.seed_contrast);
-  if (!width) return std::nullopt;
-  return sigma_of_width(*width);
-}
-
-RidgeLimits ridge_limits(const DerivativeKernels& kernels, const ImageFacts& facts,
-                         const ExtractionOptions& options, const ExtractionResult& result) {
-  const double strength_noise = facts.noise * kernels.curvature_gain;
-  RidgeLimits limits;
-  limits.level_low = result.threshold_low;
-  limits.level_high = result.threshold_high;
-  limits.hard_levels = options.thresholds != "auto";
-  limits.start_contrast = facts.seed_contrast;
-  limits.start_strength = std::max(7.0 * strength_noise, 3.0 * kernels.matched_strength());
-  limits.follow_strength = std::max(3.5 * strength_noise, 1.5 * kernels.matched_strength());
-  limits.shaded_strength =
-      limits.hard_levels ? std::numeric_limits<double>::infinity() : 1.4 * limits.follow_strength;
-  limits.strength_noise = strength_noise;
-  limits.clear_strength = 12.0 * strength_noise;
-  limits.largest_gap = 2 + static_cast<int>(std::lround(3.0 * kernels.sigma));
-  return limits;
-}
-
-template <class T>
-void find_lines(ImageView<T> image, const ExtractionOptions& options, const ImageFacts& facts,
-                ExtractionWorkspace& w, ExtractionResult& result) {
-  if (w.kernels.sigma != result.sigma) w.kernels = make_derivative_kernels(result.sigma);
-  const RidgeLimits limits = ridge_limits(w.kernels, facts, options, result);
+void find_lines(const Run<T>& run) {
+  ExtractionWorkspace& w = run.w;
+  if (w.kernels.sigma != run.result.sigma) w.kernels = make_derivative_kernels(run.result.sigma);
+  const RidgeLimits limits = ridge_limits(w.kernels, run.facts, run.parsed, run.result);
   w.lines.clear();
-  switch (options.method) {
+  switch (run.options.method) {
     case ExtractionMethod::kDirectionGuided:
-      follow_lines(image, w.kernels, limits, facts.histogram.largest, w.direction_guided<T>(), w.lines);
+      follow_lines(run.image, w.kernels, limits, follow_rule(run), w.direction_guided<T>(), w.lines);
       break;
     case ExtractionMethod::kSteger:
-      find_lines_steger(image, w.kernels, limits, w.lines);
+      find_lines_steger(run.image, w.kernels, limits, w.whole_image, w.lines);
       break;
     case ExtractionMethod::kZhouRoi:
-      find_lines_zhou(image, w.kernels, limits, result.levels.t_otsu, w.lines);
+      find_lines_zhou(run.image, w.kernels, limits, run.result.levels.t_otsu, w.whole_image, w.lines);
+      break;
+    case ExtractionMethod::kHuRecursive:
+      find_lines_hu(run.image, w.kernels, limits, w.whole_image, w.lines);
       break;
     case ExtractionMethod::kCentroid:
-      find_lines_centroid(image, w.kernels, limits, w.lines);
+      find_lines_by_grey_value(run.image, w.kernels, limits, GreyValueCentre::kCentroid, w.grey_values,
+                               w.lines);
+      break;
+    case ExtractionMethod::kExtremum:
+      find_lines_by_grey_value(run.image, w.kernels, limits, GreyValueCentre::kExtremum, w.grey_values,
+                               w.lines);
       break;
   }
-  test_lines(image, w.kernels, facts.noise, options.lines, w.tests, w.lines);
+  test_lines(run.image, w.kernels, run.facts.noise.seen, run.options.lines, w.tests, w.lines);
 }
 
 /// Median width of the brighter measured points; nothing without points.
 std::optional<double> found_width(ExtractionWorkspace& w) {
   float brightest = 0;
-  for (const StripePoint& p : w.lines.points) brightest = std::max(brightest, p.intensity);
+  for (const LineRange& r : w.lines.lines)
+    for (std::size_t i = r.begin; i < r.end; ++i)
+      brightest = std::max(brightest, w.lines.points[i].intensity);
   w.values.clear();
   for (const LineRange& r : w.lines.lines)
     for (std::size_t i = r.begin; i < r.end; ++i) {
@@ -180,37 +125,49 @@ std::size_t measured_points(const ExtractionWorkspace& w) {
 /// The estimated width came from single pixels; whole lines know better. The scale follows the lines' own
 /// width, as long as that does not lose points.
 template <class T>
-void refine_sigma(ImageView<T> image, const ExtractionOptions& options, const ImageFacts& facts,
-                  ExtractionWorkspace& w, ExtractionResult& result) {
+void refine_sigma(const Run<T>& run) {
   for (int pass = 0; pass < 3; ++pass) {
-    const auto width = found_width(w);
+    const auto width = found_width(run.w);
     if (!width) return;
-    const double before = result.sigma;
+    const double before = run.result.sigma;
     const double change = std::clamp(sigma_of_width(*width) / before, 0.7, 1.4);
     if (std::abs(std::log(change)) < 0.15) return;
-    const std::size_t points = measured_points(w);
-    result.sigma = std::clamp(change * before, kLeastSigma, kLargestSigma);
-    find_lines(image, options, facts, w, result);
-    if (20 * measured_points(w) >= 19 * points) continue;
-    result.sigma = before;
-    find_lines(image, options, facts, w, result);
+    const std::size_t points = measured_points(run.w);
+    run.result.sigma = std::clamp(change * before, kLeastSigma, kLargestSigma);
+    find_lines(run);
+    if (20 * measured_points(run.w) >= 19 * points) continue;
+    run.result.sigma = before;
+    find_lines(run);
     return;
   }
 }
 
+/// As many stripes as needed; the memory of points that are not needed now waits in the workspace.
+void resize_stripes(std::size_t count, ExtractionWorkspace& w, std::vector<Stripe>& stripes) {
+  for (; stripes.size() > count; stripes.pop_back()) w.spare.push_back(std::move(stripes.back()));
+  for (; stripes.size() < count && !w.spare.empty(); w.spare.pop_back())
+    stripes.push_back(std::move(w.spare.back()));
+  stripes.resize(count);
+}
+
 /// Longest lines first, each with growing x or y; into the result's own memory.
-void hand_over(ExtractionWorkspace& w, int max_lines, ExtractionResult& result) {
+void hand_over(ExtractionWorkspace& w, int max_lines, const PixelPlace& origin, ExtractionResult& result) {
   auto& lines = w.lines.lines;
-  std::stable_sort(lines.begin(), lines.end(),
-                   [](const LineRange& a, const LineRange& b) { return a.size() > b.size(); });
+  std::sort(lines.begin(), lines.end(), [](const LineRange& a, const LineRange& b) {
+    return a.size() != b.size() ? a.size() > b.size() : a.begin < b.begin;
+  });
   if (max_lines > 0 && lines.size() > static_cast<std::size_t>(max_lines))
     lines.resize(static_cast<std::size_t>(max_lines));
-  result.stripes.resize(lines.size());
+  resize_stripes(lines.size(), w, result.stripes);
   for (std::size_t k = 0; k < lines.size(); ++k) {
     const auto first = w.lines.points.begin() + static_cast<std::ptrdiff_t>(lines[k].begin);
     const auto last = w.lines.points.begin() + static_cast<std::ptrdiff_t>(lines[k].end);
     auto& points = result.stripes[k].points;
     points.assign(first, last);
+    for (StripePoint& p : points) {
+      p.x += origin.x;
+      p.y += origin.y;
+    }
     const double dx = points.back().x - points.front().x, dy = points.back().y - points.front().y;
     if ((std::abs(dx) >= std::abs(dy) ? dx : dy) >= 0) continue;
     std::reverse(points.begin(), points.end());
@@ -221,27 +178,50 @@ void hand_over(ExtractionWorkspace& w, int max_lines, ExtractionResult& result) 
   }
 }
 
+/// The part of the image that is looked at, and where it begins.
 template <class T>
-void extract(ImageView<T> image, const ExtractionOptions& options, ExtractionWorkspace& w,
+ImageView<T> region_of(ImageView<T> image, const ParsedOptions& parsed) {
+  if (!parsed.roi) return image;
+  const PixelRectangle& r = *parsed.roi;
+  const int width = std::min(r.width, image.width - r.x), height = std::min(r.height, image.height - r.y);
+  return width > 0 && height > 0 ? image.crop(r.x, r.y, width, height) : ImageView<T>{};
+}
+
+bool has_ridges(ExtractionMethod method) {
+  return method != ExtractionMethod::kCentroid && method != ExtractionMethod::kExtremum;
+}
+
+template <class T>
+void finish_lines(const Run<T>& run) {
+  ExtractionWorkspace& w = run.w;
+  smooth_measures(w.kernels, w.lines, w.values);
+  predict_errors(run.image, w.kernels, run.facts.noise.full, w.lines, w.values);
+  if (run.options.curvature_correction && has_ridges(run.options.method))
+    correct_curvature_bias(w.kernels, w.lines, w.bends);
+  if (run.options.smoothing) smooth_along_lines(w.kernels, w.lines, w.smoothing);
+}
+
+template <class T>
+void extract(ImageView<T> whole, const ExtractionOptions& options, ExtractionWorkspace& w,
              ExtractionResult& result) {
-  check_options(options);
-  result.stripes.clear();
+  const ParsedOptions parsed = parse_options(options);
   result.sigma = result.threshold_low = result.threshold_high = result.noise = 0;
   result.levels = {};
-  if (image.empty()) return;
-  const ImageFacts facts = look_at(image);
-  result.noise = facts.noise;
-  choose_levels(facts, options, result);
-  const auto sigma = choose_sigma(image, options, facts, result.threshold_low);
-  if (!sigma) return;
-  result.sigma = *sigma;
-  find_lines(image, options, facts, w, result);
-  if (!options.sigma && !options.stripe_width) refine_sigma(image, options, facts, w, result);
-  smooth_measures(w.kernels, w.lines, w.scratch);
-  predict_errors(w.kernels, facts.noise, w.lines);
-  if (options.curvature_correction && options.method != ExtractionMethod::kCentroid)
-    correct_curvature_bias(w.kernels, w.lines, w.scratch, w.values);
-  hand_over(w, options.max_lines, result);
+  w.lines.clear();
+  const ImageView<T> image = region_of(whole, parsed);
+  const PixelPlace origin{parsed.roi ? 1.0 * parsed.roi->x : 0.0, parsed.roi ? 1.0 * parsed.roi->y : 0.0};
+  if (!image.empty()) {
+    const Run<T> run{image, options, parsed, look_at(image), w, result};
+    result.noise = run.facts.noise.full;
+    choose_levels(run.facts, options, parsed, result);
+    if (const auto sigma = choose_sigma(run)) {
+      result.sigma = *sigma;
+      find_lines(run);
+      if (!options.sigma && !options.stripe_width) refine_sigma(run);
+      finish_lines(run);
+    }
+  }
+  hand_over(w, options.max_lines, origin, result);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "core/error.h"
+#include "extraction/border_window.h"
 #include "extraction/kernels_window.h"
 
 namespace lightstripe {
@@ -75,32 +76,6 @@ double squared_norm(const std::vector<double>& kernel) {
   return sum;
 }
 
-/// A copy of the window for places near the border, where pixels beyond it are taken from the border,
-/// shifted along the tangent. Row pitch = kernels.pitch.
-template <class T>
-void fill_border_window(ImageView<T> image, int left, int top, const DerivativeKernels& kernels,
-                        double tangent_x, double tangent_y, std::vector<T>& window) {
-  window.assign(static_cast<std::size_t>(kernels.taps) * static_cast<std::size_t>(kernels.pitch), T{});
-  const double right = image.width - 1, bottom = image.height - 1;
-  for (int j = 0; j < kernels.taps; ++j) {
-    for (int i = 0; i < kernels.taps; ++i) {
-      const double u = left + i, v = top + j;
-      double x = std::clamp(u, 0.0, right), y = std::clamp(v, 0.0, bottom);
-      // Only where the line leaves the border steeply enough; else the shift would fetch far pixels.
-      if (x != u && y == v && std::abs(tangent_x) > 0.3)
-        y = std::clamp(v + (x - u) * tangent_y / tangent_x, 0.0, bottom);
-      else if (y != v && x == u && std::abs(tangent_y) > 0.3)
-        x = std::clamp(u + (y - v) * tangent_x / tangent_y, 0.0, right);
-      const int x0 = static_cast<int>(x), y0 = static_cast<int>(y);
-      const int x1 = std::min(x0 + 1, image.width - 1), y1 = std::min(y0 + 1, image.height - 1);
-      const double fx = x - x0, fy = y - y0;
-      const double grey = (1 - fy) * ((1 - fx) * image(x0, y0) + fx * image(x1, y0)) +
-                          fy * ((1 - fx) * image(x0, y1) + fx * image(x1, y1));
-      window[static_cast<std::size_t>(j * kernels.pitch + i)] = static_cast<T>(grey + 0.5);
-    }
-  }
-}
-
 }  // namespace
 
 DerivativeKernels make_derivative_kernels(double sigma) {
@@ -145,10 +120,14 @@ Derivatives evaluate_derivatives(ImageView<T> image, PhasedPosition x, PhasedPos
   const int left = x.pixel - kernels.radius, top = y.pixel - kernels.radius;
   const float* weights_x = kernels.phase(x.phase);
   const float* weights_y = kernels.phase(y.phase);
-  if (left >= 0 && top >= 0 && left + kernels.pitch <= image.width && top + kernels.taps <= image.height)
+  // Whole vectors are read: in the image's last rows they must not run over its end, elsewhere the next row
+  // follows.
+  const int last_row = top + kernels.taps, readable = last_row < image.height ? kernels.taps : kernels.pitch;
+  if (left >= 0 && top >= 0 && left + readable <= image.width && last_row <= image.height &&
+      kernels.pitch <= image.width)
     return window_derivatives(image.row(top) + left, image.stride, weights_x, weights_y, kernels.taps,
                               kernels.pitch);
-  fill_border_window(image, left, top, kernels, tangent_x, tangent_y, border_window);
+  fill_border_window(image, {left, top, kernels.taps, kernels.pitch, tangent_x, tangent_y}, border_window);
   return window_derivatives(border_window.data(), kernels.pitch, weights_x, weights_y, kernels.taps,
                             kernels.pitch);
 }

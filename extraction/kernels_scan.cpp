@@ -19,6 +19,14 @@ T largest(const T* pixels, std::size_t count) {
   const std::size_t lanes = hn::Lanes(d);
   auto best = hn::Zero(d);
   std::size_t i = 0;
+  // Four at a time: the loop's own work would cost as much as the comparing.
+  for (auto a = best, b = best, c = best; i + 4 * lanes <= count; i += 4 * lanes) {
+    best = hn::Max(best, hn::LoadU(d, pixels + i));
+    a = hn::Max(a, hn::LoadU(d, pixels + i + lanes));
+    b = hn::Max(b, hn::LoadU(d, pixels + i + 2 * lanes));
+    c = hn::Max(c, hn::LoadU(d, pixels + i + 3 * lanes));
+    if (i + 8 * lanes > count) best = hn::Max(hn::Max(best, a), hn::Max(b, c));
+  }
   for (; i + lanes <= count; i += lanes) best = hn::Max(best, hn::LoadU(d, pixels + i));
   HWY_ALIGN T lane_values[HWY_MAX_BYTES / sizeof(T)];
   hn::Store(best, d, lane_values);

@@ -3,27 +3,121 @@
 #include "extraction/line_measure.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
 #include "extraction/cross_profile.h"
-#include "extraction/line_point.h"
 
 namespace lightstripe {
 namespace {
 
+/// The row or column that crosses a line at one point.
 template <class T>
-CrossProfile profile_at(ImageView<T> image, const StripePoint& p, double full_width) {
-  const bool column = std::abs(p.normal_y) >= std::abs(p.normal_x);
-  const double cosine = column ? std::abs(p.normal_y) : std::abs(p.normal_x);
-  const int reach = 2 + static_cast<int>(std::ceil(1.25 * full_width / cosine));
-  if (column) {
-    const int x = std::clamp(static_cast<int>(p.x + 0.5), 0, image.width - 1);
-    return measure_profile(column_line(image, x), p.y, reach);
+struct Crossing {
+  PixelLine<T> line;
+  double centre = 0;  ///< px along the row or column
+  double cosine = 1;  ///< of the angle between it and the normal
+};
+
+template <class T>
+Crossing<T> crossing_at(ImageView<T> image, const StripePoint& p) {
+  const double nx = std::abs(p.normal_x), ny = std::abs(p.normal_y);
+  if (ny >= nx)
+    return {column_line(image, std::clamp(static_cast<int>(p.x + 0.5), 0, image.width - 1)), p.y, ny};
+  return {row_line(image, std::clamp(static_cast<int>(p.y + 0.5), 0, image.height - 1)), p.x, nx};
+}
+
+int profile_reach(double full_width, double cosine) {
+  return 3 + static_cast<int>(1.25 * full_width / cosine);
+}
+
+void set_measures(const CrossProfile& profile, double cosine, double clipped_level, std::size_t i,
+                  LineSet& lines, LineMeasures& m) {
+  StripePoint& p = lines.points[i];
+  p.width = profile.width() * cosine;
+  lines.half_level_widths[i] = static_cast<float>(profile.half_level_width * cosine);
+  p.intensity = static_cast<float>(profile.intensity());
+  m.contrast[i] = static_cast<float>(profile.contrast());
+  if (profile.brightest >= clipped_level) p.flags |= kStripeSaturated;
+  if (std::abs(profile.left - profile.right) > 0.35 * profile.width()) p.flags |= kStripeAsymmetric;
+}
+
+/// How many neighbours on each side have to be averaged before noise is small against the line's height.
+std::size_t averaging_reach(const DerivativeKernels& kernels, double noise, const LineSet& lines,
+                            const LineRange& r, LineMeasures& m) {
+  m.values.clear();
+  for (std::size_t i = r.begin; i < r.end; i += sample_step(r))
+    m.values.push_back(static_cast<float>(lines.points[i].strength));
+  const double height = median_of(m.values) / kernels.matched_strength(),
+               ratio = 10 * noise / std::max(height, 1e-9);
+  return static_cast<std::size_t>(std::min(0.5 * ratio * ratio, 3 * kernels.sigma));
+}
+
+/// Adds (sign 1) or takes away (sign -1) the pixels around a point's centre.
+template <class T>
+void add_pixels(const Crossing<T>& c, int reach, float sign, std::vector<float>& sums) {
+  const int centre = static_cast<int>(c.centre + 0.5);
+  for (int k = -reach; k <= reach; ++k)
+    sums[static_cast<std::size_t>(k + reach)] +=
+        sign * static_cast<float>(c.line[std::clamp(centre + k, 0, c.line.count - 1)]);
+}
+
+/// The points of one line, each by the mean profile of its neighbours.
+template <class T>
+void measure_averaged(ImageView<T> image, double full_width, double clipped_level, std::size_t neighbours,
+                      const LineRange& r, LineSet& lines, LineMeasures& m) {
+  const int reach = profile_reach(full_width, 0.7);
+  m.sums.assign(static_cast<std::size_t>(2 * reach + 1), 0.0F);
+  m.profile.resize(m.sums.size());
+  std::size_t first = r.begin, end = r.begin;
+  for (std::size_t i = r.begin; i < r.end; ++i) {
+    for (; end < std::min(r.end, i + neighbours + 1); ++end)
+      add_pixels(crossing_at(image, lines.points[end]), reach, 1.0F, m.sums);
+    for (; first + neighbours < i; ++first)
+      add_pixels(crossing_at(image, lines.points[first]), reach, -1.0F, m.sums);
+    const float scale = 1.0F / static_cast<float>(end - first);
+    for (std::size_t k = 0; k < m.sums.size(); ++k) m.profile[k] = scale * m.sums[k];
+    const PixelLine<float> line{m.profile.data(), 1, static_cast<int>(m.profile.size())};
+    const Crossing<T> c = crossing_at(image, lines.points[i]);
+    const double centre = reach + c.centre - static_cast<int>(c.centre + 0.5);
+    set_measures(measure_profile(line, centre, profile_reach(full_width, c.cosine)), c.cosine, clipped_level,
+                 i, lines, m);
   }
-  const int y = std::clamp(static_cast<int>(p.y + 0.5), 0, image.height - 1);
-  return measure_profile(row_line(image, y), p.x, reach);
+}
+
+/// The points between two measured ones.
+void fill_between(std::size_t a, std::size_t b, LineSet& lines, LineMeasures& m) {
+  const StripePoint p = lines.points[a], q = lines.points[b];
+  const auto flags = static_cast<std::uint8_t>((p.flags | q.flags) & (kStripeSaturated | kStripeAsymmetric));
+  for (std::size_t i = a + 1; i < b; ++i) {
+    const float u = static_cast<float>(i - a) / static_cast<float>(b - a), v = 1 - u;
+    StripePoint& between = lines.points[i];
+    between.width = double{v} * p.width + double{u} * q.width;
+    between.intensity = v * p.intensity + u * q.intensity;
+    between.flags |= flags;
+    m.contrast[i] = v * m.contrast[a] + u * m.contrast[b];
+    lines.half_level_widths[i] = v * lines.half_level_widths[a] + u * lines.half_level_widths[b];
+  }
+}
+
+/// The points of one line by their own profiles: all of them near its ends, where each counts, further in one
+/// in sigma.
+template <class T>
+void measure_singly(ImageView<T> image, double sigma, double full_width, double clipped_level,
+                    const LineRange& r, LineSet& lines, LineMeasures& m) {
+  const auto edge = static_cast<std::size_t>(4 * sigma);
+  const auto stride = static_cast<std::size_t>(std::clamp(static_cast<int>(sigma), 1, 4));
+  std::size_t last = r.begin;
+  for (std::size_t i = r.begin; i < r.end;) {
+    const Crossing<T> c = crossing_at(image, lines.points[i]);
+    set_measures(measure_profile(c.line, c.centre, profile_reach(full_width, c.cosine)), c.cosine,
+                 clipped_level, i, lines, m);
+    if (i > last + 1) fill_between(last, i, lines, m);
+    last = i;
+    i += i >= r.begin + edge && i + edge + stride < r.end ? stride : 1;
+  }
 }
 
 }  // namespace
@@ -36,71 +130,71 @@ double median_of(std::vector<float>& values) {
 }
 
 template <class T>
-void measure_points(ImageView<T> image, const DerivativeKernels& kernels, LineSet& lines,
-                    std::vector<float>& contrast) {
+void measure_points(ImageView<T> image, const DerivativeKernels& kernels, double noise, LineSet& lines,
+                    LineMeasures& m) {
   const double full_width = 2 * std::numbers::sqrt3 * kernels.sigma;
   constexpr double kClipped = std::numeric_limits<T>::max() - 1;  // some cameras stop one level short
-  contrast.resize(lines.points.size());
+  m.contrast.resize(lines.points.size());
   lines.half_level_widths.resize(lines.points.size());
-  for (std::size_t i = 0; i < lines.points.size(); ++i) {
-    StripePoint& p = lines.points[i];
-    const CrossProfile profile = profile_at(image, p, full_width);
-    const double cosine = std::max(std::abs(p.normal_x), std::abs(p.normal_y));
-    p.width = profile.width() * cosine;
-    lines.half_level_widths[i] = static_cast<float>(profile.half_level_width * cosine);
-    p.intensity = static_cast<float>(profile.intensity());
-    contrast[i] = static_cast<float>(profile.contrast());
-    if (profile.brightest >= kClipped) p.flags |= kStripeSaturated;
-    if (std::abs(profile.left - profile.right) > 0.35 * profile.width()) p.flags |= kStripeAsymmetric;
+  m.averaged.clear();
+  for (const LineRange& r : lines.lines) {
+    const std::size_t neighbours = averaging_reach(kernels, noise, lines, r, m);
+    m.averaged.push_back(2.0 * static_cast<double>(neighbours) + 1);
+    if (neighbours > 0) {
+      measure_averaged(image, full_width, kClipped, neighbours, r, lines, m);
+      continue;
+    }
+    measure_singly(image, kernels.sigma, full_width, kClipped, r, lines, m);
   }
 }
 
-template void measure_points<std::uint8_t>(ImageView8, const DerivativeKernels&, LineSet&,
-                                           std::vector<float>&);
-template void measure_points<std::uint16_t>(ImageView16, const DerivativeKernels&, LineSet&,
-                                            std::vector<float>&);
+template void measure_points<std::uint8_t>(ImageView8, const DerivativeKernels&, double, LineSet&,
+                                           LineMeasures&);
+template void measure_points<std::uint16_t>(ImageView16, const DerivativeKernels&, double, LineSet&,
+                                            LineMeasures&);
 
 namespace {
 
-/// Sums over the measured points of a window that slides along a line.
+/// Sums over the measured points of a window that slides along a line. `values`: width, width at half the
+/// peak, intensity and 1 for measured points, all 0 for bridged ones; one after the other.
 struct SlidingMeans {
-  double foot = 0, half = 0, intensity = 0;
-  int used = 0;
+  static constexpr std::size_t kValues = 4;
+  std::array<float, kValues> sums{};
 
-  void add(const StripePoint& p, float half_width, int sign) {
-    if ((p.flags & kStripeBridged) != 0) return;
-    foot += sign * p.width;
-    half += sign * static_cast<double>(half_width);
-    intensity += sign * static_cast<double>(p.intensity);
-    used += sign;
+  void add(const float* values, float sign) {
+    for (std::size_t k = 0; k < kValues; ++k) sums[k] += sign * values[k];
   }
 };
 
-}  // namespace
-
-void smooth_measures(const DerivativeKernels& kernels, LineSet& lines, std::vector<StripePoint>& scratch) {
-  const auto reach = static_cast<std::size_t>(std::lround(1.5 * kernels.sigma));
-  for (const LineRange& r : lines.lines) {
-    scratch.assign(lines.points.begin() + static_cast<std::ptrdiff_t>(r.begin),
-                   lines.points.begin() + static_cast<std::ptrdiff_t>(r.end));
-    const float* half = lines.half_level_widths.data() + r.begin;
-    SlidingMeans means;
-    std::size_t first = 0, end = 0;
-    for (std::size_t i = 0; i < scratch.size(); ++i) {
-      for (; end < std::min(scratch.size(), i + reach + 1); ++end) means.add(scratch[end], half[end], +1);
-      for (; first + reach < i; ++first) means.add(scratch[first], half[first], -1);
-      if (means.used == 0) continue;
-      lines.points[r.begin + i].width = bar_width(means.foot / means.used, means.half / means.used);
-      lines.points[r.begin + i].intensity = static_cast<float>(means.intensity / means.used);
-    }
+void collect_measures(const LineSet& lines, const LineRange& r, std::vector<float>& values) {
+  values.clear();
+  for (std::size_t i = r.begin; i < r.end; ++i) {
+    const StripePoint& p = lines.points[i];
+    const bool bridged = (p.flags & kStripeBridged) != 0;
+    // Grey levels of 16 bits in single precision: sums of sliding windows keep them to 0.1.
+    const float used = bridged ? 0.0F : 1.0F;
+    for (const float value : {static_cast<float>(p.width), lines.half_level_widths[i], p.intensity, 1.0F})
+      values.push_back(used * value);
   }
 }
 
-void predict_errors(const DerivativeKernels& kernels, double noise, LineSet& lines) {
-  for (StripePoint& p : lines.points) {
-    p.sigma_px = centre_sigma(kernels, noise, p.strength);
-    // A bridged point is as good as the curve between its neighbours: far worse than a measured one.
-    if ((p.flags & kStripeBridged) != 0) p.sigma_px = std::max(5 * p.sigma_px, 0.1 * kernels.sigma);
+}  // namespace
+
+void smooth_measures(const DerivativeKernels& kernels, LineSet& lines, std::vector<float>& values) {
+  const auto reach = static_cast<std::size_t>(std::lround(1.5 * kernels.sigma));
+  for (const LineRange& r : lines.lines) {
+    collect_measures(lines, r, values);
+    SlidingMeans means;
+    std::size_t first = 0, end = 0;
+    for (std::size_t i = 0; i < r.size(); ++i) {
+      for (; end < std::min(r.size(), i + reach + 1); ++end)
+        means.add(values.data() + end * SlidingMeans::kValues, 1.0F);
+      for (; first + reach < i; ++first) means.add(values.data() + first * SlidingMeans::kValues, -1.0F);
+      const auto& [foot, half, intensity, used] = means.sums;
+      if (used < 0.5F) continue;
+      lines.points[r.begin + i].width = bar_width(double{foot / used}, double{half / used});
+      lines.points[r.begin + i].intensity = intensity / used;
+    }
   }
 }
 

@@ -10,7 +10,7 @@
 
 namespace lightstripe {
 
-/// Points [begin, end) of LineSet::points, in order along the line.
+/// Points [begin, end) of LineSet::points, in order along the line. Not every point need belong to a line.
 struct LineRange {
   std::size_t begin = 0;
   std::size_t end = 0;

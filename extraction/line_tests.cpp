@@ -21,12 +21,13 @@ struct Trial {
   double noise;
   const LineTestOptions& options;
   LineTestWorkspace& w;
-  double full_width;  ///< px, of the stripes of this image
+  double full_width;         ///< px, of the stripes of this image
+  double profile_noise = 0;  ///< grey levels, of the line on trial: less where its profiles were averaged
 
   /// Median of the contrasts at i - 1, i, i + 1 inside the range.
   double contrast(const LineRange& r, std::size_t i) const {
     const std::size_t a = i > r.begin ? i - 1 : i, b = i + 1 < r.end ? i + 1 : i;
-    return median_of_three(w.contrast[a], w.contrast[i], w.contrast[b]);
+    return median_of_three(w.measure.contrast[a], w.measure.contrast[i], w.measure.contrast[b]);
   }
   static double median_of_three(double a, double b, double c) {
     return std::max(std::min(a, b), std::min(std::max(a, b), c));
@@ -35,7 +36,7 @@ struct Trial {
 
 /// Whether the stripe itself is there, unsmoothed: the kernels see a line's end up to sigma beyond it.
 bool is_lit(const Trial& t, const LineRange& r, std::size_t i) {
-  return t.contrast(r, i) >= 2.5 * kTopNoise * t.noise;
+  return t.contrast(r, i) >= 2.5 * kTopNoise * t.profile_noise;
 }
 
 /// Cuts unlit and bridged points off both ends. A lit end has half the contrast of the line a little further
@@ -53,7 +54,7 @@ LineRange trimmed(const Trial& t, const LineSet& lines, LineRange r) {
 
 double median_width(Trial& t, const LineSet& lines, const LineRange& r) {
   t.w.scratch.clear();
-  for (std::size_t i = r.begin; i < r.end; ++i)
+  for (std::size_t i = r.begin; i < r.end; i += sample_step(r))
     if ((lines.points[i].flags & kStripeBridged) == 0)
       t.w.scratch.push_back(static_cast<float>(lines.points[i].width));
   return median_of(t.w.scratch);
@@ -71,15 +72,7 @@ bool bridge_stretch(std::vector<StripePoint>& points, std::size_t before, std::s
 /// One kept stretch of a line.
 void keep(Trial& t, const LineSet& lines, LineRange r) {
   r = trimmed(t, lines, r);
-  if (r.size() < 3) return;
-  LineSet& kept = t.w.kept;
-  const std::size_t begin = kept.points.size();
-  kept.points.insert(kept.points.end(), lines.points.begin() + static_cast<std::ptrdiff_t>(r.begin),
-                     lines.points.begin() + static_cast<std::ptrdiff_t>(r.end));
-  kept.half_level_widths.insert(kept.half_level_widths.end(),
-                                lines.half_level_widths.begin() + static_cast<std::ptrdiff_t>(r.begin),
-                                lines.half_level_widths.begin() + static_cast<std::ptrdiff_t>(r.end));
-  kept.lines.push_back({begin, kept.points.size()});
+  if (r.size() >= 3) t.w.kept.push_back(r);
 }
 
 /// Share of the range's points that have one of these flags.
@@ -140,19 +133,11 @@ void mend_or_cut(Trial& t, LineSet& lines, const LineRange& whole) {
   keep(t, lines, {begin, r.end});
 }
 
-double line_length(const LineSet& lines, const LineRange& r) {
-  double length = 0;
-  for (std::size_t i = r.begin + 1; i < r.end; ++i)
-    length +=
-        std::hypot(lines.points[i].x - lines.points[i - 1].x, lines.points[i].y - lines.points[i - 1].y);
-  return length;
-}
-
 /// The intensity that a quarter of the points exceed: half of a line over a checkerboard lies on black
 /// squares.
 double typical_intensity(Trial& t, const LineSet& lines, const LineRange& r) {
   t.w.scratch.clear();
-  for (std::size_t i = r.begin; i < r.end; ++i)
+  for (std::size_t i = r.begin; i < r.end; i += sample_step(r))
     if ((lines.points[i].flags & kStripeBridged) == 0) t.w.scratch.push_back(lines.points[i].intensity);
   if (t.w.scratch.empty()) return 0;
   const auto upper = t.w.scratch.begin() + static_cast<std::ptrdiff_t>(t.w.scratch.size() * 3 / 4);
@@ -160,17 +145,36 @@ double typical_intensity(Trial& t, const LineSet& lines, const LineRange& r) {
   return *upper;
 }
 
+LineFacts facts_of(Trial& t, const LineSet& lines, const LineRange& r) {
+  constexpr std::size_t kChord = 4;  // points; shorter chords would add up the noise as well
+  LineFacts facts;
+  for (std::size_t i = r.begin; i + 1 < r.end; i += kChord) {
+    const StripePoint &p = lines.points[i], &next = lines.points[std::min(i + kChord, r.end - 1)];
+    const double dx = next.x - p.x, dy = next.y - p.y;
+    facts.length += std::sqrt(dx * dx + dy * dy);
+  }
+  std::size_t bridged = 0, odd = 0;
+  for (std::size_t i = r.begin; i < r.end; ++i) {
+    const StripePoint& p = lines.points[i];
+    bridged += (p.flags & kStripeBridged) != 0 ? 1U : 0U;
+    odd += (p.flags & (kStripeBridged | kStripeAsymmetric)) != 0 ? 1U : 0U;
+    facts.mean_strength += p.strength;
+  }
+  const auto count = static_cast<double>(r.size());
+  facts.mean_strength /= count;
+  facts.bridged_share = static_cast<double>(bridged) / count;
+  facts.odd_share = static_cast<double>(odd) / count;
+  facts.width = median_width(t, lines, r);
+  facts.intensity = typical_intensity(t, lines, r);
+  return facts;
+}
+
 /// Length and width tests, which need no other line; a short line has to be the more regular.
-bool is_stripe_like(Trial& t, const LineSet& lines, const LineRange& r) {
-  const double length = line_length(lines, r), width = median_width(t, lines, r);
-  if (length < t.options.min_length * t.full_width) return false;
-  std::size_t measured = 0;
-  for (std::size_t i = r.begin; i < r.end; ++i)
-    measured += (lines.points[i].flags & kStripeBridged) == 0 ? 1U : 0U;
-  if (2 * measured < r.size()) return false;
-  const double ratio = std::max(width, 1e-3) / t.full_width;
+bool is_stripe_like(const Trial& t, const LineFacts& line) {
+  if (line.length < t.options.min_length * t.full_width || line.bridged_share > 0.5) return false;
+  const double ratio = std::max(line.width, 1e-3) / t.full_width;
   const double most =
-      length < 12 * t.full_width ? 0.75 * t.options.max_width_ratio : t.options.max_width_ratio;
+      line.length < 12 * t.full_width ? 0.75 * t.options.max_width_ratio : t.options.max_width_ratio;
   return ratio < most && 1.0 / ratio < 1.5 * most;
 }
 
@@ -180,31 +184,47 @@ struct Reference {
   double width = 0;      ///< px, mean over the lines at least half as bright, weighted by their length
 };
 
-Reference strong_stripe(Trial& t, const LineSet& lines) {
+Reference strong_stripe(const Trial& t) {
   const double full_length = 3 * t.options.min_length * t.full_width;
   Reference reference;
-  for (const LineRange& r : lines.lines)
+  for (const LineFacts& line : t.w.facts)
     reference.intensity =
-        std::max(reference.intensity,
-                 typical_intensity(t, lines, r) * std::min(1.0, line_length(lines, r) / full_length));
+        std::max(reference.intensity, line.intensity * std::min(1.0, line.length / full_length));
   double sum = 0, weights = 0;
-  for (const LineRange& r : lines.lines) {
-    if (typical_intensity(t, lines, r) < 0.5 * reference.intensity) continue;
-    sum += median_width(t, lines, r) * static_cast<double>(r.size());
-    weights += static_cast<double>(r.size());
+  for (const LineFacts& line : t.w.facts) {
+    if (line.intensity < 0.5 * reference.intensity) continue;
+    sum += line.width * line.length;
+    weights += line.length;
   }
   reference.width = weights > 0 ? sum / weights : t.full_width;
   return reference;
 }
 
 /// Brightness against the strong lines: weak lines have to be regular and as wide as the strong ones.
-bool is_bright_enough(Trial& t, const LineSet& lines, const LineRange& r, const Reference& reference) {
-  const double intensity = typical_intensity(t, lines, r), share = intensity / reference.intensity;
-  if (intensity < t.options.min_contrast_to_noise * t.noise || share < t.options.min_contrast) return false;
+bool is_bright_enough(const Trial& t, const LineFacts& line, const Reference& reference) {
+  const double share = line.intensity / reference.intensity;
+  // Single pixels of a wide stripe may drown in noise that its ridge stands out of.
+  const double visible = t.options.min_contrast_to_noise * t.noise / std::max(1.0, t.kernels.sigma);
+  const double strength_noise = t.noise * t.kernels.curvature_gain;
+  if (line.intensity < visible || line.mean_strength < 5 * strength_noise || share < t.options.min_contrast)
+    return false;
   if (share > t.options.clear_contrast) return true;
-  const double ratio = median_width(t, lines, r) / reference.width;
+  const double ratio = line.width / reference.width;
   // Bridges and uneven flanks are rare on a stripe, frequent on stains and edges.
-  return flagged_share(lines, r, kStripeBridged | kStripeAsymmetric) < 0.2 && ratio > 0.65 && ratio < 1.5;
+  return line.odd_share < 0.2 && ratio > 0.65 && ratio < 1.5;
+}
+
+/// Removes the lines (and their facts) that fail.
+template <class Test>
+void keep_if(LineSet& lines, std::vector<LineFacts>& facts, const Test& test) {
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < lines.lines.size(); ++k) {
+    if (!test(facts[k])) continue;
+    lines.lines[kept] = lines.lines[k];
+    facts[kept++] = facts[k];
+  }
+  lines.lines.resize(kept);
+  facts.resize(kept);
 }
 
 }  // namespace
@@ -213,14 +233,19 @@ template <class T>
 void test_lines(ImageView<T> image, const DerivativeKernels& kernels, double noise,
                 const LineTestOptions& options, LineTestWorkspace& workspace, LineSet& lines) {
   Trial trial{kernels, noise, options, workspace, 2 * std::numbers::sqrt3 * kernels.sigma};
-  measure_points(image, kernels, lines, workspace.contrast);
+  measure_points(image, kernels, noise, lines, workspace.measure);
   workspace.kept.clear();
-  for (const LineRange& r : lines.lines) mend_or_cut(trial, lines, r);
-  std::swap(lines, workspace.kept);
-  std::erase_if(lines.lines, [&](const LineRange& r) { return !is_stripe_like(trial, lines, r); });
-  const Reference reference = strong_stripe(trial, lines);
-  std::erase_if(lines.lines,
-                [&](const LineRange& r) { return !is_bright_enough(trial, lines, r, reference); });
+  for (std::size_t k = 0; k < lines.lines.size(); ++k) {
+    trial.profile_noise = noise / std::sqrt(workspace.measure.averaged[k]);
+    mend_or_cut(trial, lines, lines.lines[k]);
+  }
+  std::swap(lines.lines, workspace.kept);
+  workspace.facts.clear();
+  for (const LineRange& r : lines.lines) workspace.facts.push_back(facts_of(trial, lines, r));
+  keep_if(lines, workspace.facts, [&](const LineFacts& line) { return is_stripe_like(trial, line); });
+  const Reference reference = strong_stripe(trial);
+  keep_if(lines, workspace.facts,
+          [&](const LineFacts& line) { return is_bright_enough(trial, line, reference); });
 }
 
 template void test_lines<std::uint8_t>(ImageView8, const DerivativeKernels&, double, const LineTestOptions&,

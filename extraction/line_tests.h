@@ -9,6 +9,7 @@
 #include "core/fields.h"
 #include "core/image.h"
 #include "extraction/kernels.h"
+#include "extraction/line_measure.h"
 #include "extraction/line_set.h"
 
 namespace lightstripe {
@@ -41,12 +42,23 @@ struct BadStretch {
   bool spot = false;  ///< wider than the stripe; else unlit
 };
 
+/// What a whole line is like.
+struct LineFacts {
+  double length = 0;         ///< px
+  double width = 0;          ///< px, median
+  double intensity = 0;      ///< grey levels, upper quartile
+  double mean_strength = 0;  ///< grey levels / px^2
+  double bridged_share = 0;  ///< of the points
+  double odd_share = 0;      ///< bridged or asymmetric
+};
+
 /// Scratch memory.
 struct LineTestWorkspace {
-  std::vector<float> contrast;  ///< one a point, grey levels over the brighter side; 0 for bridged points
+  LineMeasures measure;
   std::vector<float> scratch;
   std::vector<BadStretch> stretches;
-  LineSet kept;
+  std::vector<LineFacts> facts;
+  std::vector<LineRange> kept;
 };
 
 /// Measures width, intensity and flags of every point, then drops and cuts lines as said above. Lines of one

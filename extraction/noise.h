@@ -7,11 +7,15 @@
 
 namespace lightstripe {
 
-/// Standard deviation of the pixel noise where most of the image lies, grey levels: the median of the second
-/// differences along every `row_step`-th row, which stripes and edges hardly move. Where the background is
-/// clipped at 0 only the unclipped half of the noise is seen, and made up for. At least the quantisation
-/// noise, 1 / sqrt(12).
+/// Pixel noise, standard deviations in grey levels; at least the quantisation noise, 1 / sqrt(12).
+struct NoiseEstimate {
+  double seen = 0;  ///< as it is in the image where most of it lies
+  double full = 0;  ///< as it would be without clipping at 0, which halves the noise of a dark background
+};
+
+/// From the median of the second differences along the rows, which stripes and edges hardly move, over about
+/// one pixel in `thinning`, spread evenly.
 template <class T>
-double estimate_noise(ImageView<T> image, int row_step = 1);
+NoiseEstimate estimate_noise(ImageView<T> image, int thinning = 1);
 
 }  // namespace lightstripe

@@ -4,8 +4,6 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "extraction/link_points.h"
-
 namespace lightstripe {
 namespace {
 
@@ -18,10 +16,12 @@ cv::Mat kernel_row(const DerivativeKernels& kernels, int order) {
   return row;
 }
 
-cv::Mat filtered(const cv::Mat& image, const cv::Mat& kernel_x, const cv::Mat& kernel_y) {
-  cv::Mat out;
+void filter(const cv::Mat& image, const cv::Mat& kernel_x, const cv::Mat& kernel_y, Image<float>& plane) {
+  plane.width = image.cols;
+  plane.height = image.rows;
+  plane.pixels.resize(static_cast<std::size_t>(image.cols) * static_cast<std::size_t>(image.rows));
+  cv::Mat out(image.rows, image.cols, CV_32F, plane.pixels.data());
   cv::sepFilter2D(image, out, CV_32F, kernel_x, kernel_y, cv::Point(-1, -1), 0, cv::BORDER_REPLICATE);
-  return out;
 }
 
 template <class T>
@@ -34,32 +34,22 @@ cv::Mat as_mat(ImageView<T> image) {
 
 template <class T>
 void find_lines_steger(ImageView<T> image, const DerivativeKernels& kernels, const RidgeLimits& limits,
-                       LineSet& lines) {
+                       WholeImageWorkspace& workspace, LineSet& lines) {
   const cv::Mat grey = as_mat(image);
   const cv::Mat smooth = kernel_row(kernels, 0), slope = kernel_row(kernels, 1),
                 curvature = kernel_row(kernels, 2);
-  const cv::Mat dx = filtered(grey, slope, smooth), dy = filtered(grey, smooth, slope);
-  const cv::Mat dxx = filtered(grey, curvature, smooth), dyy = filtered(grey, smooth, curvature);
-  const cv::Mat dxy = filtered(grey, slope, slope);
-  LinePointMap map;
-  map.reset(image.width, image.height);
-  for (int y = 0; y < image.height; ++y) {
-    const float *rx = dx.ptr<float>(y), *ry = dy.ptr<float>(y), *rxx = dxx.ptr<float>(y),
-                *rxy = dxy.ptr<float>(y), *ryy = dyy.ptr<float>(y);
-    for (int x = 0; x < image.width; ++x) {
-      // The eigenvalue's magnitude is at most |rxx| + |rxy| + |ryy|: most of the image ends here.
-      if (std::abs(rxx[x]) + std::abs(ryy[x]) + 2 * std::abs(rxy[x]) < limits.follow_strength) continue;
-      if (limits.hard_levels && image(x, y) < limits.level_low) continue;
-      map.test_pixel(x, y, {0, rx[x], ry[x], rxx[x], rxy[x], ryy[x]}, limits.follow_strength);
-    }
-  }
-  link_points(map, limits.start_strength, lines);
-  refine_points(image, kernels, lines);
+  DerivativePlanes& planes = workspace.planes;
+  filter(grey, slope, smooth, planes.dx);
+  filter(grey, smooth, slope, planes.dy);
+  filter(grey, curvature, smooth, planes.dxx);
+  filter(grey, slope, slope, planes.dxy);
+  filter(grey, smooth, curvature, planes.dyy);
+  find_lines_in_planes(image, kernels, limits, workspace, lines);
 }
 
 template void find_lines_steger<std::uint8_t>(ImageView8, const DerivativeKernels&, const RidgeLimits&,
-                                              LineSet&);
+                                              WholeImageWorkspace&, LineSet&);
 template void find_lines_steger<std::uint16_t>(ImageView16, const DerivativeKernels&, const RidgeLimits&,
-                                               LineSet&);
+                                               WholeImageWorkspace&, LineSet&);
 
 }  // namespace lightstripe

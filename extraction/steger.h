@@ -5,9 +5,7 @@
 #pragma once
 
 #include "core/image.h"
-#include "extraction/direction_guided.h"
-#include "extraction/kernels.h"
-#include "extraction/line_set.h"
+#include "extraction/derivative_planes.h"
 
 namespace lightstripe {
 
@@ -15,6 +13,6 @@ namespace lightstripe {
 /// second Newton step. Needs about 24 bytes a pixel.
 template <class T>
 void find_lines_steger(ImageView<T> image, const DerivativeKernels& kernels, const RidgeLimits& limits,
-                       LineSet& lines);
+                       WholeImageWorkspace& workspace, LineSet& lines);
 
 }  // namespace lightstripe

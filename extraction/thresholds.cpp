@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "extraction/kernels_scan.h"
+#include "extraction/sampled_pieces.h"
 
 namespace lightstripe {
 namespace {
@@ -40,7 +41,7 @@ std::array<double, kBins> smoothed(const Histogram& h, int reach) {
 }  // namespace
 
 template <class T>
-Histogram compute_histogram(ImageView<T> image, int row_step) {
+Histogram compute_histogram(ImageView<T> image, int thinning) {
   Histogram h;
   if (image.empty()) return h;
   for (int y = 0; y < image.height; ++y)
@@ -51,16 +52,16 @@ Histogram compute_histogram(ImageView<T> image, int row_step) {
   h.bin_width = 1 << shift;
   // Two tables, because neighbouring pixels are often equal and would wait for each other's increment.
   std::array<std::uint32_t, kBins> even{}, odd{};
-  for (int y = row_step / 2; y < image.height; y += row_step) {
-    const T* row = image.row(y);
+  const auto count = [&](const T* pixels, int length) {
     int x = 0;
-    for (; x + 1 < image.width; x += 2) {
-      ++even[static_cast<std::size_t>(row[x] >> shift)];
-      ++odd[static_cast<std::size_t>(row[x + 1] >> shift)];
+    for (; x + 1 < length; x += 2) {
+      ++even[static_cast<std::size_t>(pixels[x] >> shift)];
+      ++odd[static_cast<std::size_t>(pixels[x + 1] >> shift)];
     }
-    if (x < image.width) ++even[static_cast<std::size_t>(row[x] >> shift)];
-    h.total += static_cast<std::uint64_t>(image.width);
-  }
+    if (x < length) ++even[static_cast<std::size_t>(pixels[x] >> shift)];
+    h.total += static_cast<std::uint64_t>(length);
+  };
+  for_sampled_pieces(image, thinning, count);
   for (std::size_t bin = 0; bin < kBins; ++bin) h.counts[bin] = even[bin] + odd[bin];
   return h;
 }

@@ -22,9 +22,10 @@ struct Histogram {
   std::uint64_t total = 0;
 };
 
-/// Counts every `row_step`-th row; the brightest level is taken from all rows.
+/// Counts about one pixel in `thinning`, spread evenly over the image; the brightest level is taken from all
+/// pixels.
 template <class T>
-Histogram compute_histogram(ImageView<T> image, int row_step = 1);
+Histogram compute_histogram(ImageView<T> image, int thinning = 1);
 
 /// Bin that maximises the variance between the classes [0, bin] and [bin + 1, 255] (Otsu 1979).
 int otsu_threshold(const Histogram& histogram);

@@ -7,10 +7,14 @@
 #include <type_traits>
 #include <vector>
 
+#include "extraction/curvature_bias.h"
+#include "extraction/derivative_planes.h"
 #include "extraction/direction_guided.h"
+#include "extraction/grey_value_lines.h"
 #include "extraction/kernels.h"
 #include "extraction/line_set.h"
 #include "extraction/line_tests.h"
+#include "extraction/smoothing.h"
 
 namespace lightstripe {
 
@@ -20,8 +24,12 @@ struct ExtractionWorkspace {
   LineTestWorkspace tests;
   DirectionGuidedWorkspace<std::uint8_t> direction_guided8;
   DirectionGuidedWorkspace<std::uint16_t> direction_guided16;
-  std::vector<StripePoint> scratch;
+  WholeImageWorkspace whole_image;
+  GreyValueWorkspace grey_values;
+  SmoothingWorkspace smoothing;
+  BendWorkspace bends;
   std::vector<float> values;
+  std::vector<Stripe> spare;  ///< memory of stripes that the last results did not need
 
   template <class T>
   DirectionGuidedWorkspace<T>& direction_guided() {

@@ -29,10 +29,10 @@ cv::Mat region_of_interest(ImageView<T> image, double threshold, double sigma) {
 
 template <class T>
 void find_lines_zhou(ImageView<T> image, const DerivativeKernels& kernels, const RidgeLimits& limits,
-                     double threshold, LineSet& lines) {
+                     double threshold, WholeImageWorkspace& workspace, LineSet& lines) {
   const double level = limits.hard_levels ? limits.level_low : threshold;
   const cv::Mat region = region_of_interest(image, level, kernels.sigma);
-  LinePointMap map;
+  LinePointMap& map = workspace.map;
   map.reset(image.width, image.height);
   std::vector<T> border_window;
   for (int y = 0; y < image.height; ++y) {
@@ -49,8 +49,8 @@ void find_lines_zhou(ImageView<T> image, const DerivativeKernels& kernels, const
 }
 
 template void find_lines_zhou<std::uint8_t>(ImageView8, const DerivativeKernels&, const RidgeLimits&, double,
-                                            LineSet&);
+                                            WholeImageWorkspace&, LineSet&);
 template void find_lines_zhou<std::uint16_t>(ImageView16, const DerivativeKernels&, const RidgeLimits&,
-                                             double, LineSet&);
+                                             double, WholeImageWorkspace&, LineSet&);
 
 }  // namespace lightstripe

@@ -5,15 +5,13 @@
 #pragma once
 
 #include "core/image.h"
-#include "extraction/direction_guided.h"
-#include "extraction/kernels.h"
-#include "extraction/line_set.h"
+#include "extraction/derivative_planes.h"
 
 namespace lightstripe {
 
 /// `threshold`: Otsu's, grey levels; a pixel above it, and what lies within sigma of one, is tested.
 template <class T>
 void find_lines_zhou(ImageView<T> image, const DerivativeKernels& kernels, const RidgeLimits& limits,
-                     double threshold, LineSet& lines);
+                     double threshold, WholeImageWorkspace& workspace, LineSet& lines);
 
 }  // namespace lightstripe

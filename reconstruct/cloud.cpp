@@ -30,15 +30,20 @@ CloudPoint cloud_point(const Profile& profile, const ProfilePoint& p) {
   return out;
 }
 
-void append_bytes(std::string& bytes, CloudFormat format, const CloudPoint& p) {
-  if (format == CloudFormat::kXyz)
-    fmt::format_to(std::back_inserter(bytes), "{} {} {}\n", p.x, p.y,
-                   p.z);  // the shortest text with the same bits
-  else
-    bytes.append(reinterpret_cast<const char*>(&p), sizeof(p));
-}
-
 }  // namespace
+
+void append_cloud_points(std::string& bytes, CloudFormat format, const Profile& profile) {
+  LIGHTSTRIPE_CHECK(profile.frame >= 0 && profile.frame <= std::numeric_limits<std::int32_t>::max(),
+                    "a cloud's frame is a 32-bit number");
+  for (const ProfilePoint& point : profile.points) {
+    const CloudPoint p = cloud_point(profile, point);
+    if (format == CloudFormat::kXyz)
+      fmt::format_to(std::back_inserter(bytes), "{} {} {}\n", p.x, p.y,
+                     p.z);  // the shortest text with the same bits
+    else
+      bytes.append(reinterpret_cast<const char*>(&p), sizeof(p));
+  }
+}
 
 struct CloudWriter::Impl {
   std::string name;
@@ -69,15 +74,12 @@ CloudWriter::~CloudWriter() = default;
 
 void CloudWriter::append(const Profile& profile) {
   LIGHTSTRIPE_CHECK(impl_->file.is_open(), "append() after finish()");
-  LIGHTSTRIPE_CHECK(profile.frame >= 0 && profile.frame <= std::numeric_limits<std::int32_t>::max(),
-                    "a cloud's frame is a 32-bit number");
   impl_->num_points += static_cast<std::int64_t>(profile.points.size());
   if (impl_->num_points > kMaxCloudPoints)
     throw Error(impl_->name, fmt::format("the cloud exceeds {} points", kMaxCloudPoints),
                 "reconstruct fewer frames at once");
   impl_->bytes.clear();
-  for (const ProfilePoint& p : profile.points)
-    append_bytes(impl_->bytes, impl_->format, cloud_point(profile, p));
+  append_cloud_points(impl_->bytes, impl_->format, profile);
   impl_->put(impl_->bytes);
 }
 

@@ -1,11 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The lightstripe authors
 // SPDX-License-Identifier: Apache-2.0
-// The headers of cloud files; shared by cloud.cpp, which writes them, and read_cloud.cpp, which checks them.
+// The two parts of a cloud file, header and points, for those who put files together themselves.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
 #include <string>
+
+#include "core/profile.h"
 
 namespace lightstripe {
 
@@ -20,5 +22,19 @@ inline constexpr std::int64_t kMaxCloudPoints = 2147483647;
 /// The header of a file with this many points of type CloudPoint; as long for every number, so that it can be
 /// corrected in place once the number is known (a comment takes up the slack). XYZ has none.
 std::string cloud_header(CloudFormat format, std::int64_t num_points);
+
+/// Appends the profile's points as they lie in a file of this format. Frames have to fit into 32 bits.
+void append_cloud_points(std::string& bytes, CloudFormat format, const Profile& profile);
+
+struct CloudPart {
+  CloudFormat format = CloudFormat::kPly;
+  std::int64_t num_points = 0;
+  std::uint64_t points_at = 0;                   ///< bytes before the first point
+  std::int64_t first_frame = 0, last_frame = 0;  ///< of its points; 0 where there are none
+};
+
+/// Looks at a .ply or .pcd file that was written by lightstripe; an Error where its header is not of that
+/// layout or counts other points than the file holds.
+CloudPart inspect_cloud(const std::filesystem::path& path);
 
 }  // namespace lightstripe

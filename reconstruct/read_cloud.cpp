@@ -57,7 +57,30 @@ std::int64_t check_header(const std::filesystem::path& path, CloudFormat format)
   return *num_points;
 }
 
+/// The frame of the point that begins at this byte.
+std::int32_t frame_at(std::ifstream& file, std::uint64_t at) {
+  CloudPoint point;
+  file.seekg(static_cast<std::streamoff>(at));
+  file.read(reinterpret_cast<char*>(&point), sizeof(point));
+  return point.frame;
+}
+
 }  // namespace
+
+CloudPart inspect_cloud(const std::filesystem::path& path) {
+  CloudPart part;
+  part.format = cloud_format(path, path.string());
+  LIGHTSTRIPE_CHECK(part.format != CloudFormat::kXyz, "an .xyz file counts nothing");
+  part.num_points = check_header(path, part.format);
+  part.points_at = cloud_header(part.format, part.num_points).size();
+  if (part.num_points == 0) return part;
+  std::ifstream file(path, std::ios::binary);
+  part.first_frame = frame_at(file, part.points_at);
+  part.last_frame =
+      frame_at(file, part.points_at + static_cast<std::uint64_t>(part.num_points - 1) * sizeof(CloudPoint));
+  if (!file) throw Error(path.string(), "cannot be read", "check the file and its disk");
+  return part;
+}
 
 std::vector<CloudPoint> read_cloud(const std::filesystem::path& path) {
   const CloudFormat format = cloud_format(path, path.string());

@@ -3,6 +3,7 @@
 #include "reconstruct/scanner.h"
 
 #include <fmt/format.h>
+#include <oneapi/tbb/enumerable_thread_specific.h>
 #include <oneapi/tbb/parallel_pipeline.h>
 #include <oneapi/tbb/task_arena.h>
 
@@ -10,6 +11,7 @@
 #include <exception>
 
 #include "core/error.h"
+#include "extraction/workspace.h"
 
 namespace lightstripe {
 namespace {
@@ -24,83 +26,106 @@ struct PlacedFrame {
 };
 
 struct FrameOutcome {
-  Profile profile;
+  ScannedFrame scanned;
   std::exception_ptr error;
 };
 
-void check_size(const Image8& image, const Sensor& sensor, std::int64_t frame) {
-  if (image.width == sensor.camera.width && image.height == sensor.camera.height) return;
+void check_size(const GreyImage& image, const Sensor& sensor, std::int64_t frame) {
+  const auto [width, height] = std::visit([](const auto& i) { return std::pair(i.width, i.height); }, image);
+  if (width == sensor.camera.width && height == sensor.camera.height) return;
   throw Error(fmt::format("{}, frame {}", sensor.name, frame),
-              fmt::format("the picture has {} x {} px but the rig's camera {} x {} px", image.width,
-                          image.height, sensor.camera.width, sensor.camera.height),
+              fmt::format("the picture has {} x {} px but the rig's camera {} x {} px", width, height,
+                          sensor.camera.width, sensor.camera.height),
               "use the rig that was calibrated with this camera at this picture size");
 }
 
 /// The next frame with a known position, or none at the end.
 std::optional<PlacedFrame> next_placed_frame(const ScanInput& input, std::int64_t& next,
                                              ScanSummary& summary) {
-  for (; next < input.num_frames; ++next) {
+  for (; next < input.end_frame; ++next) {
     if (input.stop.stop_requested()) {
       summary.stopped = true;
       return std::nullopt;
     }
+    if (input.recorded && !input.recorded(next)) continue;
     try {
-      if (const auto position = input.position(next)) return PlacedFrame{next++, *position, nullptr};
+      if (const auto position = input.position(next)) {
+        if (position->interpolated) summary.interpolated.add(next);
+        return PlacedFrame{next++, *position, nullptr};
+      }
     } catch (...) {
       return PlacedFrame{next++, {}, std::current_exception()};
     }
-    ++summary.frames_without_position;
+    summary.without_position.add(next);
   }
   return std::nullopt;
 }
 
-Profile profile_of_frame(const PlacedFrame& placed, const ScanInput& input, const Rig& rig,
-                         const StripeExtractor& extract) {
-  Profile profile;
-  profile.frame = placed.frame;
-  profile.travel = placed.position.travel;
-  for (int sensor = 0; sensor < static_cast<int>(rig.sensors.size()); ++sensor) {
-    const auto image = input.read(placed.frame, sensor);
-    if (!image) continue;
-    check_size(*image, rig.sensors[static_cast<std::size_t>(sensor)], placed.frame);
-    triangulate_stripes(extract(*image), rig, sensor, placed.position, profile);
+/// The picture, or nothing where it was skipped or the sensor has none.
+std::optional<GreyImage> usable_picture(const ScanInput& input, const Rig& rig, int sensor,
+                                        ScannedFrame& out) {
+  try {
+    auto image = input.read(out.profile.frame, sensor);
+    if (image) check_size(*image, rig.sensors[static_cast<std::size_t>(sensor)], out.profile.frame);
+    return image;
+  } catch (const Error& error) {
+    if (input.strict) throw;
+    out.skipped.push_back({sensor, error.what()});
+    return std::nullopt;
   }
-  return profile;
+}
+
+ScannedFrame scan_frame(const PlacedFrame& placed, const ScanInput& input, const Rig& rig,
+                        const StripeExtractor& extract) {
+  ScannedFrame out;
+  out.profile.frame = placed.frame;
+  out.profile.travel = placed.position.travel;
+  out.travel_interpolated = placed.position.interpolated;
+  for (int sensor = 0; sensor < static_cast<int>(rig.sensors.size()); ++sensor) {
+    const auto image = usable_picture(input, rig, sensor, out);
+    if (!image) continue;
+    ++out.pictures;
+    triangulate_stripes(extract(*image), rig, sensor, placed.position, out.profile);
+  }
+  if (input.encode) input.encode(out);
+  return out;
 }
 
 FrameOutcome outcome_of_frame(const PlacedFrame& placed, const ScanInput& input, const Rig& rig,
                               const StripeExtractor& extract) {
   if (placed.error) return {{}, placed.error};
   try {
-    return {profile_of_frame(placed, input, rig, extract), nullptr};
+    return {scan_frame(placed, input, rig, extract), nullptr};
   } catch (...) {
     return {{}, std::current_exception()};
   }
 }
 
-/// Hands a profile on and counts it; returns what went wrong with this frame, if anything.
-std::exception_ptr hand_on(const FrameOutcome& outcome, const std::function<void(const Profile&)>& sink,
-                           ScanSummary& summary) {
+/// Hands a frame on and counts it; returns what went wrong with it, if anything.
+std::exception_ptr hand_on(const FrameOutcome& outcome, const FrameSink& sink, ScanSummary& summary) {
   if (outcome.error) return outcome.error;
+  const ScannedFrame& scanned = outcome.scanned;
   try {
-    sink(outcome.profile);
+    sink(scanned);
   } catch (...) {
     return std::current_exception();
   }
   ++summary.frames;
-  if (outcome.profile.points.empty()) ++summary.frames_without_points;
-  summary.points += static_cast<std::int64_t>(outcome.profile.points.size());
-  summary.rays_missed += outcome.profile.num_missed;
+  if (scanned.profile.points.empty()) ++summary.frames_without_points;
+  summary.points += static_cast<std::int64_t>(scanned.profile.points.size());
+  summary.rays_missed += scanned.profile.num_missed;
+  summary.pictures += scanned.pictures;
+  summary.pictures_skipped += static_cast<std::int64_t>(scanned.skipped.size());
   return nullptr;
 }
 
 }  // namespace
 
 ScanSummary scan_profiles(const ScanInput& input, const Rig& rig, const StripeExtractor& extract, int threads,
-                          const std::function<void(const Profile&)>& sink) {
+                          const FrameSink& sink) {
   LIGHTSTRIPE_CHECK(threads >= 0, "the number of threads must not be negative");
   ScanSummary summary;
-  std::int64_t next = 0;
+  std::int64_t next = input.first_frame;
   std::atomic<bool> failed = false;
   std::exception_ptr error;
   const auto issue = [&](tbb::flow_control& flow) {
@@ -129,8 +154,21 @@ ScanSummary scan_profiles(const ScanInput& input, const Rig& rig, const StripeEx
 }
 
 ScanSummary scan_profiles(const ScanInput& input, const Rig& rig, const ExtractionOptions& extraction,
-                          int threads, const std::function<void(const Profile&)>& sink) {
-  const auto extract = [&](ImageView8 image) { return extract_stripes(image, extraction).stripes; };
+                          int threads, const FrameSink& sink) {
+  struct Memory {
+    ExtractionWorkspace workspace;
+    ExtractionResult result;
+  };
+  tbb::enumerable_thread_specific<Memory> memories;
+  const auto extract = [&](const GreyImage& image) {
+    Memory& memory = memories.local();
+    std::visit(
+        [&](const auto& pixels) {
+          extract_stripes(pixels.view(), extraction, memory.workspace, memory.result);
+        },
+        image);
+    return memory.result.stripes;
+  };
   return scan_profiles(input, rig, StripeExtractor(extract), threads, sink);
 }
 

@@ -15,44 +15,73 @@
 #include "core/profile.h"
 #include "core/rig.h"
 #include "extraction/extract_stripes.h"
+#include "reconstruct/frame_ranges.h"
 #include "reconstruct/triangulate.h"
 
 namespace lightstripe {
 
+/// A picture that could not be used, and why: "gauge, frame 7: ...".
+struct SkippedPicture {
+  int sensor = 0;
+  std::string reason;
+};
+
+/// One frame on its way to the sink.
+struct ScannedFrame {
+  Profile profile;
+  bool travel_interpolated = false;
+  int pictures = 0;  ///< that were read and looked at
+  std::vector<SkippedPicture> skipped;
+  std::vector<std::string> encoded;  ///< what ScanInput::encode made of the profile
+};
+
 struct ScanInput {
-  std::int64_t num_frames = 0;
+  std::int64_t first_frame = 0;
+  std::int64_t end_frame = 0;  ///< the first one that is not scanned
   /// The picture of one rig sensor in one frame (called from several threads); nothing where this sensor has
-  /// none.
-  std::function<std::optional<Image8>(std::int64_t frame, int sensor)> read;
+  /// none in the whole scan. An Error skips this picture only, unless `strict`.
+  std::function<std::optional<GreyImage>(std::int64_t frame, int sensor)> read;
   /// Where the rig stood; nothing where it is not known (the frame is left out and counted).
   /// Called in order of frames, from one thread at a time.
   std::function<std::optional<FramePosition>(std::int64_t frame)> position;
+  /// False for frames that were never recorded (numbers that the recording leaves out): passed over silently.
+  std::function<bool(std::int64_t frame)> recorded{};
+  /// Work on the finished profile that needs no order, such as making text of it; called from several
+  /// threads.
+  std::function<void(ScannedFrame& frame)> encode{};
+  /// A picture that cannot be read, or has not the size of the rig's camera, ends the run.
+  bool strict = false;
   /// A stop that is asked for ends the run after the frames that are under way.
   std::stop_token stop{};
 };
 
 struct ScanSummary {
   std::int64_t frames = 0;  ///< handed on
-  std::int64_t frames_without_position = 0;
   std::int64_t frames_without_points = 0;
   std::int64_t points = 0;
   std::int64_t rays_missed = 0;
-  bool stopped = false;  ///< ended by ScanInput::stop
+  std::int64_t pictures = 0;
+  std::int64_t pictures_skipped = 0;
+  FrameRanges without_position;
+  FrameRanges interpolated;  ///< their travel lies between two readings
+  bool stopped = false;      ///< ended by ScanInput::stop
 };
 
 /// image of one sensor -> its stripes; called from several threads.
-using StripeExtractor = std::function<std::vector<Stripe>(ImageView8)>;
+using StripeExtractor = std::function<std::vector<Stripe>(const GreyImage&)>;
+using FrameSink = std::function<void(const ScannedFrame&)>;
 
 /// Calls `sink` once a frame in order of frames, from one thread at a time; a frame without points gives an
-/// empty profile. `threads` = 0: all cores. An exception of `read`, `position`, the extractor or `sink` ends
-/// the run and comes out here; where several frames fail, that of the first one. An Error names the frame
-/// where a picture has another size than the rig's camera. At most one picture a thread and two profiles a
-/// thread are alive at any time.
+/// empty profile. `threads` = 0: all cores. A picture that `read` refuses by an Error, or of another size
+/// than the rig's camera, is skipped and named in its frame; with `strict`, and for every other exception of
+/// `read`, `position`, the extractor, `encode` or `sink`, the run ends and the exception comes out here;
+/// where several frames fail, that of the first one. At most one picture a thread and two profiles a thread
+/// are alive at any time.
 ScanSummary scan_profiles(const ScanInput& input, const Rig& rig, const StripeExtractor& extract, int threads,
-                          const std::function<void(const Profile&)>& sink);
+                          const FrameSink& sink);
 
-/// The same with extract_stripes().
+/// The same with extract_stripes(), which keeps one workspace a thread.
 ScanSummary scan_profiles(const ScanInput& input, const Rig& rig, const ExtractionOptions& extraction,
-                          int threads, const std::function<void(const Profile&)>& sink);
+                          int threads, const FrameSink& sink);
 
 }  // namespace lightstripe

@@ -14,8 +14,9 @@ namespace lightstripe {
 
 /// Where the rig stood in this frame: a travel along (or about) the rig's motion, or a pose world_from_rig.
 struct FramePosition {
-  double travel = 0;                     ///< mm or degrees
-  std::optional<Rigid3> world_from_rig;  ///< where poses are known: the points lie in that world
+  double travel = 0;                       ///< mm or degrees
+  std::optional<Rigid3> world_from_rig{};  ///< where poses are known: the points lie in that world
+  bool interpolated = false;               ///< the travel lies between two readings, it was not read itself
 };
 
 /// From the rig frame at the moment of the picture to the frame of the result (the rig frame at travel 0, or

@@ -23,7 +23,7 @@ struct Mapped {
 
 /// The lens without the sensor's tilt: distort() with tau = 0 and its analytic Jacobian, one pass for both
 /// because undistortion runs for every stripe point.
-Mapped lens(const std::array<double, kDistortionTerms>& k, const Vector2d& at) {
+Mapped lens(const double* k, const Vector2d& at) {
   const double x = at.x(), y = at.y(), r2 = x * x + y * y, r4 = r2 * r2, r6 = r4 * r2;
   const double inverse = 1 / (1 + k[5] * r2 + k[6] * r4 + k[7] * r6);
   const double radial = (1 + k[0] * r2 + k[1] * r4 + k[4] * r6) * inverse;
@@ -41,13 +41,17 @@ Mapped lens(const std::array<double, kDistortionTerms>& k, const Vector2d& at) {
 }
 
 /// The homography of the tilted sensor, as in distort().
-Matrix3d tilt_homography(const Camera& camera) {
-  const double cx = std::cos(camera.distortion[12]), sx = std::sin(camera.distortion[12]);
-  const double cy = std::cos(camera.distortion[13]), sy = std::sin(camera.distortion[13]);
+Matrix3d tilt_homography(double tau_x, double tau_y) {
+  const double cx = std::cos(tau_x), sx = std::sin(tau_x);
+  const double cy = std::cos(tau_y), sy = std::sin(tau_y);
   Matrix3d R, to_sensor;
   R << cy, sy * sx, -sy * cx, 0, cx, sx, sy, -cy * sx, cy * cx;
   to_sensor << R(2, 2), 0, -R(0, 2), 0, R(2, 2), -R(1, 2), 0, 0, 1;
   return to_sensor * R;
+}
+
+Matrix3d tilt_homography(const Camera& camera) {
+  return tilt_homography(camera.distortion[12], camera.distortion[13]);
 }
 
 Mapped tilt(const Matrix3d& H, const Vector2d& at) {
@@ -58,8 +62,43 @@ Mapped tilt(const Matrix3d& H, const Vector2d& at) {
   return out;
 }
 
+using TermDerivatives = Eigen::Matrix<double, 2, kDistortionTerms>;
+
+/// d(lens)/d(k1 k2 p1 p2 k3 .. s4); the columns of the tilt stay 0.
+TermDerivatives lens_by_terms(const double* k, const Vector2d& at) {
+  const double x = at.x(), y = at.y(), r2 = x * x + y * y, r4 = r2 * r2, r6 = r4 * r2;
+  const double inverse = 1 / (1 + k[5] * r2 + k[6] * r4 + k[7] * r6);
+  const double radial = (1 + k[0] * r2 + k[1] * r4 + k[4] * r6) * inverse;
+  TermDerivatives J = TermDerivatives::Zero();
+  J.col(0) = r2 * inverse * at;
+  J.col(1) = r4 * inverse * at;
+  J.col(2) = Vector2d(2 * x * y, r2 + 2 * y * y);
+  J.col(3) = Vector2d(r2 + 2 * x * x, 2 * x * y);
+  J.col(4) = r6 * inverse * at;
+  J.col(5) = -radial * J.col(0);
+  J.col(6) = -radial * J.col(1);
+  J.col(7) = -radial * J.col(4);
+  J(0, 8) = J(1, 10) = r2;
+  J(0, 9) = J(1, 11) = r4;
+  return J;
+}
+
+/// d(tilted point)/d(tau_x, tau_y) of a point `d` of the lens' image plane, term by term as in distort().
+Matrix2d tilt_by_angles(double tau_x, double tau_y, const Vector2d& d) {
+  const double cx = std::cos(tau_x), sx = std::sin(tau_x), cy = std::cos(tau_y), sy = std::sin(tau_y);
+  const Vector2d v(cy * d.x() + sy * sx * d.y() - sy * cx, cx * d.y() + sx);
+  const double vz = sy * d.x() - cy * sx * d.y() + cy * cx, r22 = cy * cx;
+  const Vector2d v_x(sy * cx * d.y() + sy * sx, -sx * d.y() + cx);
+  const Vector2d v_y(-sy * d.x() + cy * sx * d.y() - cy * cx, 0);
+  const double vz_x = -cy * cx * d.y() - cy * sx, vz_y = cy * d.x() + sy * sx * d.y() - sy * cx;
+  Matrix2d J;
+  J.col(0) = -cy * sx * v / vz + r22 * (v_x - v * vz_x / vz) / vz - Vector2d(sy * sx, cx);
+  J.col(1) = -sy * cx * v / vz + r22 * (v_y - v * vz_y / vz) / vz - Vector2d(-cy * cx, 0);
+  return J;
+}
+
 Matrix2d distortion_jacobian(const Camera& camera, const Vector2d& at) {
-  const Mapped distorted = lens(camera.distortion, at);
+  const Mapped distorted = lens(camera.distortion.data(), at);
   if (!camera.tilted()) return distorted.J;
   return tilt(tilt_homography(camera), distorted.value).J * distorted.J;
 }
@@ -101,7 +140,7 @@ std::optional<Vector3d> unproject(const Camera& camera, const Vector2d& pixel) {
   const auto target = distorted_point(camera, pixel);
   if (!target) return std::nullopt;
   Vector2d x = *target;
-  Mapped image = lens(camera.distortion, x);
+  Mapped image = lens(camera.distortion.data(), x);
   double residual = (image.value - *target).squaredNorm();
   for (int i = 0; i < kMaxIterations && !(residual < kEnough * kEnough); ++i) {
     if (!(image.J.determinant() > kFold)) return std::nullopt;
@@ -109,7 +148,7 @@ std::optional<Vector3d> unproject(const Camera& camera, const Vector2d& pixel) {
     const double before = residual;
     // Halve the step until the residual shrinks: strong distortion makes the full step overshoot.
     for (int half = 0; half < kMaxHalvings; ++half, step *= 0.5) {
-      const Mapped next = lens(camera.distortion, x - step);
+      const Mapped next = lens(camera.distortion.data(), x - step);
       const double next_residual = (next.value - *target).squaredNorm();
       if (!(next_residual < before)) continue;
       x -= step, image = next, residual = next_residual;
@@ -126,6 +165,15 @@ Matrix2d projection_jacobian(const Camera& camera, const Vector2d& normalised) {
   return Vector2d(camera.fx, camera.fy).asDiagonal() * distortion_jacobian(camera, normalised);
 }
 
+DistortionDerivatives distortion_derivatives(const double* terms, const Vector2d& normalised) {
+  const Mapped undisturbed = lens(terms, normalised);
+  const Mapped tilted = tilt(tilt_homography(terms[12], terms[13]), undisturbed.value);
+  DistortionDerivatives result{tilted.value, tilted.J * undisturbed.J,
+                               tilted.J * lens_by_terms(terms, normalised)};
+  result.by_terms.rightCols<2>() = tilt_by_angles(terms[12], terms[13], undisturbed.value);
+  return result;
+}
+
 bool invertible_over_image(const Camera& camera) {
   constexpr int kSamples = 16;
   constexpr double kMargin = 0.02;  // wider than kFold: parameters of a calibration are only known so well
@@ -136,7 +184,7 @@ bool invertible_over_image(const Camera& camera) {
       const auto ray = unproject(camera, pixel);
       if (!ray) return false;
       for (double part : {0.25, 0.5, 0.75, 1.0})
-        if (!(lens(camera.distortion, part * ray->head<2>()).J.determinant() > kMargin)) return false;
+        if (!(lens(camera.distortion.data(), part * ray->head<2>()).J.determinant() > kMargin)) return false;
     }
   }
   return true;

@@ -63,6 +63,14 @@ std::optional<Eigen::Vector3d> unproject(const Camera& camera, const Eigen::Vect
 /// d(pixel)/d(x/z, y/z) at a normalised point; used for error propagation.
 Eigen::Matrix2d projection_jacobian(const Camera& camera, const Eigen::Vector2d& normalised);
 
+/// distort() of doubles with its derivatives.
+struct DistortionDerivatives {
+  Eigen::Vector2d value;
+  Eigen::Matrix2d by_point;                             ///< by the normalised point
+  Eigen::Matrix<double, 2, kDistortionTerms> by_terms;  ///< by the coefficients, in OpenCV's order
+};
+DistortionDerivatives distortion_derivatives(const double* terms, const Eigen::Vector2d& normalised);
+
 /// Whether the distortion can be inverted everywhere in the image: its Jacobian keeps its sign
 /// on the way from the centre to each point of the border.
 bool invertible_over_image(const Camera& camera);

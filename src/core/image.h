@@ -6,11 +6,13 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <variant>
 #include <vector>
 
 namespace lightstripe {
 
-/// Pixels of somebody else (a cv::Mat, a line-scan camera's buffer, an array). `stride` counts elements, not bytes.
+/// Pixels of somebody else (a cv::Mat, a line-scan camera's buffer, an array). `stride` counts elements, not
+/// bytes.
 template <class T>
 struct ImageView {
   const T* data = nullptr;
@@ -50,5 +52,8 @@ using ImageView8 = ImageView<std::uint8_t>;
 using ImageView16 = ImageView<std::uint16_t>;
 using Image8 = Image<std::uint8_t>;
 using Image16 = Image<std::uint16_t>;
+
+/// A picture with the bits that it was recorded with.
+using GreyImage = std::variant<Image8, Image16>;
 
 }  // namespace lightstripe

@@ -1,12 +1,15 @@
 // SPDX-FileCopyrightText: 2026 The lightstripe authors
 // SPDX-License-Identifier: Apache-2.0
-// Recorded sequences: a folder of pictures or a video file.
+// Recorded sequences: a folder of pictures, a multi-page TIFF or a video file.
 #include <fmt/format.h>
 #include <algorithm>
 #include <array>
 
 #include "core/error.h"
+#include "io/deciding_channel.h"
+#include "io/frame_numbers.h"
 #include "io/images.h"
+#include "io/tiff_pages.h"
 #include "io/video_frames.h"
 
 namespace lightstripe {
@@ -14,67 +17,86 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kSamples = 8;  // pictures looked at to decide the channel
-
-bool is_picture_name(const fs::path& path) {
-  constexpr std::array<std::string_view, 9> kExtensions = {".png", ".jpg", ".jpeg", ".tif", ".tiff",
-                                                           ".bmp", ".pgm", ".ppm",  ".pnm"};
+std::string small_extension(const fs::path& path) {
   std::string extension = path.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-  return std::find(kExtensions.begin(), kExtensions.end(), extension) != kExtensions.end();
+  return extension;
 }
 
-/// The first picture of up to kSamples, spread over the sequence, that shows a colour decides: the line may
-/// not be there yet at the start of a scan.
-Channel decided_channel(const std::vector<fs::path>& files) {
-  const std::size_t count = std::min(kSamples, files.size());
-  for (std::size_t i = 0; i < count; ++i) {
+bool is_tiff_name(const fs::path& path) {
+  const std::string extension = small_extension(path);
+  return extension == ".tif" || extension == ".tiff";
+}
+
+bool is_picture_name(const fs::path& path) {
+  constexpr std::array<std::string_view, 7> kExtensions = {".png", ".jpg", ".jpeg", ".bmp",
+                                                           ".pgm", ".ppm", ".pnm"};
+  const std::string extension = small_extension(path);
+  return is_tiff_name(path) ||
+         std::find(kExtensions.begin(), kExtensions.end(), extension) != kExtensions.end();
+}
+
+/// Keeps names, not paths: a long recording has very many.
+class ImageFolder : public FrameSource {
+ public:
+  ImageFolder(const std::vector<fs::path>& files, Channel channel) : folder_(files.front().parent_path()) {
+    names_.reserve(files.size());
+    for (const fs::path& file : files) names_.push_back(file.filename().string());
+    numbers_ = numbers_in_names(names_);
+    channel_ =
+        channel != Channel::kAuto ? channel : decide_channel(size(), [this](std::int64_t i, Channel* chosen) {
+          read_grey_image(folder_ / names_[static_cast<std::size_t>(i)], Channel::kAuto, chosen);
+        });
+  }
+
+  std::int64_t size() const override { return static_cast<std::int64_t>(names_.size()); }
+  std::string name(std::int64_t index) const override { return names_[checked(index)]; }
+  GreyImage read(std::int64_t index) const override {
+    return read_grey_image(folder_ / names_[checked(index)], channel_);
+  }
+  std::optional<std::int64_t> number(std::int64_t index) const override {
+    if (numbers_.empty()) return std::nullopt;
+    return numbers_[checked(index)];
+  }
+
+ private:
+  std::size_t checked(std::int64_t index) const {
+    LIGHTSTRIPE_CHECK(index >= 0 && index < size(), "a frame of the sequence");
+    return static_cast<std::size_t>(index);
+  }
+
+  fs::path folder_;
+  std::vector<std::string> names_;
+  std::vector<std::int64_t> numbers_;
+  Channel channel_ = Channel::kAuto;
+};
+
+}  // namespace
+
+Channel decide_channel(std::int64_t count, const std::function<void(std::int64_t, Channel*)>& look) {
+  constexpr std::int64_t kSamples = 8;
+  const std::int64_t samples = std::min(kSamples, count);
+  for (std::int64_t i = 0; i < samples; ++i) {
     Channel chosen = Channel::kGray;
-    read_image(files[i * files.size() / count], Channel::kAuto, &chosen);
+    try {
+      look(i * count / samples, &chosen);
+    } catch (const Error&) {
+      continue;  // told when the frame's turn comes
+    }
     if (chosen != Channel::kGray) return chosen;
   }
   return Channel::kGray;
 }
 
-class ImageFolder : public FrameSource {
- public:
-  ImageFolder(std::vector<fs::path> files, Channel channel)
-      : files_(std::move(files)), channel_(channel == Channel::kAuto ? decided_channel(files_) : channel) {
-    const Image8 first = read_image(files_.front(), channel_);
-    width_ = first.width;
-    height_ = first.height;
-  }
-
-  std::int64_t size() const override { return static_cast<std::int64_t>(files_.size()); }
-  std::string name(std::int64_t index) const override { return file(index).filename().string(); }
-  Image8 read(std::int64_t index) const override {
-    Image8 image = read_image(file(index), channel_);
-    if (image.width == width_ && image.height == height_) return image;
-    throw Error(file(index).string(),
-                fmt::format("has {} x {} pixels, but the first frame {} has {} x {}", image.width,
-                            image.height, files_.front().filename().string(), width_, height_),
-                "keep frames of one camera in a folder of their own");
-  }
-
- private:
-  const fs::path& file(std::int64_t index) const {
-    LIGHTSTRIPE_CHECK(index >= 0 && index < size(), "a frame of the sequence");
-    return files_[static_cast<std::size_t>(index)];
-  }
-
-  std::vector<fs::path> files_;
-  Channel channel_;
-  int width_ = 0, height_ = 0;
-};
-
-}  // namespace
-
 std::unique_ptr<FrameSource> open_frames(const fs::path& base, const std::string& pattern, Channel channel) {
-  std::vector<fs::path> files = list_files(base, pattern);
-  const bool is_video = pattern.find_first_of("*?") == std::string::npos && !is_picture_name(files.front());
-  if (is_video) return open_video(files.front(), channel);
-  return std::make_unique<ImageFolder>(std::move(files), channel);
+  const std::vector<fs::path> files = list_files(base, pattern);
+  const bool one_file = pattern.find_first_of("*?") == std::string::npos;
+  if (one_file && is_tiff_name(files.front())) {
+    if (auto pages = open_tiff_pages(files.front(), channel)) return pages;
+  }
+  if (one_file && !is_picture_name(files.front())) return open_video(files.front(), channel);
+  return std::make_unique<ImageFolder>(files, channel);
 }
 
 }  // namespace lightstripe

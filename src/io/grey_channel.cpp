@@ -74,13 +74,26 @@ double peak_above_median(const cv::Mat& grey) {
   return level_reached_by(std::min(bright, total)) - level_reached_by(total / 2 + 1);
 }
 
-Image8 as_image(const cv::Mat& grey) {
-  Image8 image(grey.cols, grey.rows);
-  for (int y = 0; y < grey.rows; ++y) std::copy_n(grey.ptr<std::uint8_t>(y), grey.cols, image.row(y));
+template <class T>
+Image<T> image_of(const cv::Mat& grey) {
+  Image<T> image;
+  image.width = grey.cols;
+  image.height = grey.rows;
+  image.pixels.reserve(grey.total());  // not filled twice
+  for (int y = 0; y < grey.rows; ++y)
+    image.pixels.insert(image.pixels.end(), grey.ptr<T>(y), grey.ptr<T>(y) + grey.cols);
   return image;
 }
 
 }  // namespace
+
+Image8 image8_of(const cv::Mat& grey) { return image_of<std::uint8_t>(grey); }
+Image16 image16_of(const cv::Mat& grey) { return image_of<std::uint16_t>(grey); }
+
+void check_grey_channel(Channel channel, const std::string& file) {
+  if (is_excess(channel))
+    throw Error(file, "is a grey picture and has no colour excess", "set channel: auto or gray");
+}
 
 ChannelChoice strongest_channel(const cv::Mat& picture) {
   ChannelChoice best;
@@ -96,9 +109,8 @@ ChannelChoice strongest_channel(const cv::Mat& picture) {
 Image8 grey_values(const cv::Mat& picture, Channel channel, const std::string& file) {
   LIGHTSTRIPE_CHECK(channel != Channel::kAuto, "auto is decided by strongest_channel");
   if (picture.channels() == 1) {
-    if (is_excess(channel))
-      throw Error(file, "is a grey picture and has no colour excess", "set channel: auto or gray");
-    return as_image(picture);
+    check_grey_channel(channel, file);
+    return image8_of(picture);
   }
   cv::Mat grey;
   if (channel == Channel::kGray) {
@@ -108,7 +120,7 @@ Image8 grey_values(const cv::Mat& picture, Channel channel, const std::string& f
   } else {
     cv::extractChannel(picture, grey, static_cast<int>(plane_of(channel)));
   }
-  return as_image(grey);
+  return image8_of(grey);
 }
 
 }  // namespace lightstripe

@@ -24,4 +24,11 @@ ChannelChoice strongest_channel(const cv::Mat& picture);
 /// naming `file`.
 Image8 grey_values(const cv::Mat& picture, Channel channel, const std::string& file);
 
+/// An Error naming `file` where the channel is an excess: a grey picture has none.
+void check_grey_channel(Channel channel, const std::string& file);
+
+/// The pixels of a one-channel picture of 8 or 16 bits.
+Image8 image8_of(const cv::Mat& grey);
+Image16 image16_of(const cv::Mat& grey);
+
 }  // namespace lightstripe

@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/image_header.h"
 
-#include <array>
 #include <cctype>
 #include <cstdlib>
 
 #include "io/byte_reader.h"
+#include "io/crc32.h"
 #include "io/number_text.h"
 #include "io/tiff_header.h"
 
@@ -15,45 +15,14 @@ namespace {
 
 constexpr std::string_view kPngSignature = "\x89PNG\r\n\x1a\n";
 
-/// CRC-32 of ISO 3309, PNG specification annex D; one table a call is cheap against a picture.
-class Crc32 {
- public:
-  Crc32() {
-    for (std::uint32_t n = 0; n < 256; ++n) {
-      std::uint32_t c = n;
-      for (int bit = 0; bit < 8; ++bit) c = (c & 1U) != 0 ? 0xedb88320U ^ (c >> 1) : c >> 1;
-      table_.at(0).at(n) = c;
-    }
-    for (std::size_t slice = 1; slice < 8; ++slice)
-      for (std::size_t n = 0; n < 256; ++n) {
-        const std::uint32_t c = table_.at(slice - 1).at(n);
-        table_.at(slice).at(n) = table_[0][c & 0xffU] ^ (c >> 8);
-      }
-  }
-  /// Eight bytes a step ("slicing by 8").
-  std::uint32_t operator()(std::string_view bytes) const {
-    std::uint32_t c = 0xffffffffU;
-    const auto* p = reinterpret_cast<const unsigned char*>(bytes.data());
-    std::size_t left = bytes.size();
-    for (; left >= 8; left -= 8, p += 8) {
-      c ^= std::uint32_t{p[0]} | std::uint32_t{p[1]} << 8 | std::uint32_t{p[2]} << 16 |
-           std::uint32_t{p[3]} << 24;
-      c = table_[7][c & 0xffU] ^ table_[6][c >> 8 & 0xffU] ^ table_[5][c >> 16 & 0xffU] ^ table_[4][c >> 24] ^
-          table_[3][p[4]] ^ table_[2][p[5]] ^ table_[1][p[6]] ^ table_[0][p[7]];
-    }
-    for (; left > 0; --left, ++p) c = table_[0][(c ^ *p) & 0xffU] ^ (c >> 8);
-    return ~c;
-  }
-
- private:
-  std::array<std::array<std::uint32_t, 256>, 8> table_{};
-};
-
 ImageHeader inspect_png(std::string_view bytes) {
   ByteReader in{bytes, true};
-  ImageHeader header{ImageFormat::kPng, static_cast<std::int64_t>(in.u32(16)),
-                     static_cast<std::int64_t>(in.u32(20)), 0, ""};
-  const Crc32 crc;
+  ImageHeader header{ImageFormat::kPng,
+                     static_cast<std::int64_t>(in.u32(16)),
+                     static_cast<std::int64_t>(in.u32(20)),
+                     0,
+                     "",
+                     0};
   for (std::uint64_t at = kPngSignature.size();;) {
     const std::uint64_t length = in.u32(at);
     const std::uint64_t expected = in.u32(at + 8 + length);
@@ -61,7 +30,7 @@ ImageHeader inspect_png(std::string_view bytes) {
       header.damage = "ends before its picture does";
       return header;
     }
-    if (crc(bytes.substr(at + 4, length + 4)) != expected) {
+    if (crc32(bytes.substr(at + 4, length + 4)) != expected) {
       header.damage = "has a damaged chunk (wrong checksum)";
       return header;
     }
@@ -79,7 +48,7 @@ bool inside_scan(std::uint64_t marker) { return marker == 0 || (marker >= 0xd0 &
 
 ImageHeader inspect_jpeg(std::string_view bytes) {
   ByteReader in{bytes, true};
-  ImageHeader header{ImageFormat::kJpeg, 0, 0, 0, ""};
+  ImageHeader header{ImageFormat::kJpeg, 0, 0, 0, "", 0};
   bool in_scan = false;
   for (std::uint64_t at = 2; !in.beyond_end;) {
     if (in_scan) {
@@ -105,7 +74,7 @@ ImageHeader inspect_jpeg(std::string_view bytes) {
 
 ImageHeader inspect_bmp(std::string_view bytes) {
   ByteReader in{bytes};
-  ImageHeader header{ImageFormat::kBmp, 0, 0, 0, ""};
+  ImageHeader header{ImageFormat::kBmp, 0, 0, 0, "", 0};
   const std::uint64_t payload_at = in.u32(10);
   const bool old_header = in.u32(14) == 12;
   header.width = old_header ? static_cast<std::int64_t>(in.u16(18)) : in.i32(18);
@@ -133,7 +102,7 @@ std::int64_t next_number(std::string_view bytes, std::size_t& at) {
 
 ImageHeader inspect_pnm(std::string_view bytes) {
   const int kind = bytes[1] - '0';  // 1 2 3: as text, 4 5 6: binary; bits, grey, colour
-  ImageHeader header{ImageFormat::kPnm, 0, 0, 1, ""};
+  ImageHeader header{ImageFormat::kPnm, 0, 0, 1, "", 0};
   std::size_t at = 2;
   header.width = next_number(bytes, at);
   header.height = next_number(bytes, at);
@@ -146,6 +115,7 @@ ImageHeader inspect_pnm(std::string_view bytes) {
   if (header.width > kMaxSide || header.height > kMaxSide || kind < 4) return header;
   const std::int64_t row = kind == 4 ? (header.width + 7) / 8
                                      : header.width * (kind == 6 ? 3 : 1) * (header.max_value > 255 ? 2 : 1);
+  header.payload_at = at + 1;
   if (static_cast<std::int64_t>(bytes.size()) - static_cast<std::int64_t>(at) - 1 < row * header.height)
     header.damage = "ends before its picture does";
   return header;

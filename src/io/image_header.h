@@ -4,6 +4,7 @@
 // is there.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -20,6 +21,7 @@ struct ImageHeader {
   int max_value = 0;        ///< PNM: the grey value that is white; others 0
   std::string
       damage;  ///< why the file cannot be whole ("ends before ..."), empty if nothing speaks against it
+  std::size_t payload_at = 0;  ///< binary PNM: where the pixels begin
 };
 
 /// Looks at the structure only: chunks and their checksums (PNG), segments to the end marker (JPEG),

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,11 +35,17 @@ constexpr std::array<EnumName<Channel>, 8> enum_names(Channel) {
 }
 
 /// Decodes a picture. An Error for a file that is missing, empty, truncated, no image, or larger than 2^28
-/// pixels (looked up in the header before anything is allocated). 16-bit pictures are scaled to 8 bits.
+/// pixels (looked up in the header before anything is allocated). 16-bit pictures are scaled to 8 bits: white
+/// is what the header says (PNM), else the largest value of the fewest of 10, 12, 14 or 16 bits that hold
+/// the picture.
 Image8 read_image(const std::filesystem::path& path, Channel channel = Channel::kAuto);
 
 /// As read_image; with kAuto also tells which channel it took, so that a sequence can stay with it.
 Image8 read_image(const std::filesystem::path& path, Channel channel, Channel* chosen);
+
+/// As read_image, but 16-bit grey pictures keep their bits (colour is reduced to 8). With kAuto `chosen`, if
+/// not null, tells which channel it took.
+GreyImage read_grey_image(const std::filesystem::path& path, Channel channel, Channel* chosen = nullptr);
 
 /// PNG (or by extension), through AtomicFile.
 void write_image(const std::filesystem::path& path, ImageView8 image);
@@ -57,17 +64,22 @@ std::string matched_text(const std::string& pattern, const std::filesystem::path
 /// "img_2" < "img_10": runs of digits compare as numbers.
 bool natural_less(const std::string& a, const std::string& b);
 
-/// A recorded sequence: image folder or video file. read() may be called from several threads.
+/// A recorded sequence: image folder, multi-page TIFF or video file. read() may be called from several
+/// threads.
 class FrameSource {
  public:
   virtual ~FrameSource() = default;
   virtual std::int64_t size() const = 0;
   /// File name (or "video.mp4#12") for messages and tables.
   virtual std::string name(std::int64_t index) const = 0;
-  virtual Image8 read(std::int64_t index) const = 0;
+  /// An Error where this one picture cannot be read; the others are not touched by that.
+  virtual GreyImage read(std::int64_t index) const = 0;
+  /// The running number that the picture's file name carries; nothing where the names have no such number.
+  virtual std::optional<std::int64_t> number(std::int64_t) const { return std::nullopt; }
 };
 
-/// Opens what a scan's `frames:` names. With Channel::kAuto the first frame decides for all.
+/// Opens what a scan's `frames:` names. With Channel::kAuto up to eight readable frames spread over the
+/// sequence decide for all. Whether each frame can be read shows when it is read.
 std::unique_ptr<FrameSource> open_frames(const std::filesystem::path& base, const std::string& pattern,
                                          Channel channel);
 

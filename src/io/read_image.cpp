@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "io/atomic_file.h"
+#include "io/decode_picture.h"
 #include "io/grey_channel.h"
 #include "io/image_header.h"
 #include "io/images.h"
@@ -16,21 +17,20 @@ namespace {
 constexpr std::int64_t kMaxPixels = std::int64_t{1} << 28;
 constexpr const char* kExportAgain = "record or export it again";
 
-void check_header(const ImageHeader& header, const std::filesystem::path& path) {
-  const std::string file = path.string();
+void check_header(const ImageHeader& header, const std::string& name) {
   if (header.format == ImageFormat::kUnknown)
-    throw Error(file, "is not a PNG, JPEG, TIFF, BMP or PNM picture", "check the path or convert it");
+    throw Error(name, "is not a PNG, JPEG, TIFF, BMP or PNM picture", "check the path or convert it");
   if (header.width < 0 || header.height < 0 || header.width > kMaxPixels || header.height > kMaxPixels ||
       header.width * header.height > kMaxPixels) {
-    throw Error(file, fmt::format("has {} x {} pixels, more than 2^28", header.width, header.height),
+    throw Error(name, fmt::format("has {} x {} pixels, more than 2^28", header.width, header.height),
                 "check the file or cut the picture");
   }
-  if (!header.damage.empty()) throw Error(file, header.damage, kExportAgain);
-  if (header.width == 0 || header.height == 0) throw Error(file, "has no pixels", kExportAgain);
+  if (!header.damage.empty()) throw Error(name, header.damage, kExportAgain);
+  if (header.width == 0 || header.height == 0) throw Error(name, "has no pixels", kExportAgain);
 }
 
 /// Grey or BGR, 8 or 16 bits, alpha dropped, not turned by EXIF.
-cv::Mat decoded(const std::string& bytes, const std::filesystem::path& path) {
+cv::Mat decoded(std::string_view bytes, const std::string& name) {
   cv::Mat picture;
   try {
     const cv::Mat buffer(1, static_cast<int>(bytes.size()), CV_8UC1, const_cast<char*>(bytes.data()));
@@ -38,37 +38,72 @@ cv::Mat decoded(const std::string& bytes, const std::filesystem::path& path) {
   } catch (const cv::Exception&) {
     picture.release();
   }
-  if (picture.empty()) throw Error(path.string(), "cannot be decoded, its content is damaged", kExportAgain);
+  if (picture.empty()) throw Error(name, "cannot be decoded, its content is damaged", kExportAgain);
   if (picture.depth() != CV_8U && picture.depth() != CV_16U)
-    throw Error(path.string(), "has neither 8 nor 16 bits a channel", "convert it to 8 or 16 bits");
+    throw Error(name, "has neither 8 nor 16 bits a channel", "convert it to 8 or 16 bits");
   return picture;
 }
 
-cv::Mat with_8_bits(const cv::Mat& picture, int white) {
-  if (picture.depth() == CV_8U) return picture;
+/// White is what the header says, else what the fewest of a camera's usual bits can hold.
+cv::Mat scaled_to_8_bits(const cv::Mat& picture, const ImageHeader& header) {
+  double white = header.max_value;
+  if (header.max_value <= 255) {
+    double largest = 0;
+    cv::minMaxLoc(picture.reshape(1), nullptr, &largest);
+    white = largest <= 1023 ? 1023 : largest <= 4095 ? 4095 : largest <= 16383 ? 16383 : 65535;
+  }
   cv::Mat scaled;
   picture.convertTo(scaled, CV_8U, 255.0 / white);
   return scaled;
 }
 
+/// Binary grey PNM with a white of 255 lies in the file as it is needed; nothing to decode.
+std::optional<Image8> plain_grey(std::string_view bytes, const ImageHeader& header) {
+  if (header.format != ImageFormat::kPnm || header.max_value != 255 || bytes[1] != '5') return std::nullopt;
+  const auto count = static_cast<std::size_t>(header.width * header.height);
+  Image8 image;
+  image.width = static_cast<int>(header.width);
+  image.height = static_cast<int>(header.height);
+  const auto* first = reinterpret_cast<const std::uint8_t*>(bytes.data() + header.payload_at);
+  image.pixels.assign(first, first + count);
+  return image;
+}
+
 }  // namespace
+
+GreyImage decode_picture(std::string_view bytes, const std::string& name, Channel channel, Bits bits,
+                         Channel* chosen) {
+  if (bytes.empty()) throw Error(name, "is empty", kExportAgain);
+  const ImageHeader header = inspect_image(bytes);
+  check_header(header, name);
+  if (channel == Channel::kAuto || channel == Channel::kGray) {
+    if (auto plain = plain_grey(bytes, header)) {
+      if (chosen != nullptr) *chosen = Channel::kGray;
+      return std::move(*plain);
+    }
+  }
+  cv::Mat picture = decoded(bytes, name);
+  if (picture.cols != header.width || picture.rows != header.height)
+    throw Error(name, "cannot be decoded as its header says", kExportAgain);
+  const bool wide = bits == Bits::kKept && picture.type() == CV_16UC1;
+  if (picture.depth() == CV_16U && !wide) picture = scaled_to_8_bits(picture, header);
+  if (channel == Channel::kAuto) channel = strongest_channel(picture).channel;
+  if (chosen != nullptr) *chosen = channel;
+  if (!wide) return grey_values(picture, channel, name);
+  check_grey_channel(channel, name);
+  return image16_of(picture);
+}
 
 Image8 read_image(const std::filesystem::path& path, Channel channel) {
   return read_image(path, channel, nullptr);
 }
 
 Image8 read_image(const std::filesystem::path& path, Channel channel, Channel* chosen) {
-  const std::string bytes = read_file(path);
-  if (bytes.empty()) throw Error(path.string(), "is empty", kExportAgain);
-  const ImageHeader header = inspect_image(bytes);
-  check_header(header, path);
-  const cv::Mat picture =
-      with_8_bits(decoded(bytes, path), header.max_value > 255 ? header.max_value : 65535);
-  if (picture.cols != header.width || picture.rows != header.height)
-    throw Error(path.string(), "cannot be decoded as its header says", kExportAgain);
-  if (channel == Channel::kAuto) channel = strongest_channel(picture).channel;
-  if (chosen != nullptr) *chosen = channel;
-  return grey_values(picture, channel, path.string());
+  return std::get<Image8>(decode_picture(read_file(path), path.string(), channel, Bits::kReducedTo8, chosen));
+}
+
+GreyImage read_grey_image(const std::filesystem::path& path, Channel channel, Channel* chosen) {
+  return decode_picture(read_file(path), path.string(), channel, Bits::kKept, chosen);
 }
 
 }  // namespace lightstripe

@@ -84,10 +84,12 @@ std::map<std::int64_t, double> read_frame_travel(const std::filesystem::path& pa
   std::map<std::int64_t, double> travel;
   while (table.next()) {
     const std::int64_t frame = table.integer(0);
+    if (table.text(1).empty()) continue;
     if (!travel.emplace(frame, table.number(1)).second)
       table.fail("frame " + std::to_string(frame) + " is given twice", "keep one row");
   }
-  if (travel.empty()) throw Error(path.string(), "has no rows", "give the position of each frame");
+  if (travel.empty())
+    throw Error(path.string(), "has no rows with a position", "give the position of each frame");
   return travel;
 }
 

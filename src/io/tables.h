@@ -25,7 +25,8 @@ std::string csv_cell(std::string_view text);
 /// Error with line.
 std::map<std::string, double> read_image_travel(const std::filesystem::path& path, std::string_view column);
 
-/// frame -> travel, mm or degrees by the column found ("travel_mm" or "angle_deg" as `column` says).
+/// frame -> travel, mm or degrees by the column found ("travel_mm" or "angle_deg" as `column` says). A row
+/// whose travel is an empty cell is one that the encoder did not read: left out.
 std::map<std::int64_t, double> read_frame_travel(const std::filesystem::path& path, std::string_view column);
 
 /// frame -> pose (world_from_camera or world_from_rig); quaternions must have unit length to 1e-3.

@@ -93,7 +93,7 @@ bool parts_inside(Directory& directory, Tag offsets_tag, Tag counts_tag, std::ui
 
 ImageHeader inspect_tiff(std::string_view bytes) {
   Directory directory(bytes);
-  ImageHeader header{ImageFormat::kTiff, 0, 0, 0, ""};
+  ImageHeader header{ImageFormat::kTiff, 0, 0, 0, "", 0};
   const Entry width = directory.find(kWidth), height = directory.find(kHeight);
   if (width.count > 0) header.width = static_cast<std::int64_t>(directory.value(width, 0));
   if (height.count > 0) header.height = static_cast<std::int64_t>(directory.value(height, 0));

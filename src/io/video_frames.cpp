@@ -30,7 +30,7 @@ class VideoFrames : public FrameSource {
     return fmt::format("{}#{}", path_.filename().string(), index);
   }
 
-  Image8 read(std::int64_t index) const override {
+  GreyImage read(std::int64_t index) const override {
     LIGHTSTRIPE_CHECK(index >= 0 && index < size_, "a frame of the sequence");
     return grey_values(picture(index), channel_, path_.string());
   }

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The lightstripe authors
 // SPDX-License-Identifier: Apache-2.0
-// The whole chain by the command line: a small simulated rig, calibrated and scanned, and what goes wrong in between.
+// The whole chain by the command line: a small simulated rig, calibrated and scanned, and what goes wrong in
+// between.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -23,8 +24,8 @@ class Cli : public ::testing::Test {
     folder_ = new TemporaryFolder;
     const auto result = run_lightstripe("simulate testdata/one_sensor.yaml -o " + quoted(data()));
     ASSERT_EQ(result.exit_code, 0) << result.err;
-    const auto calibrated =
-        run_lightstripe("calibrate " + quoted(data() / "calibration.yaml") + " -o " + quoted(data() / "rig.yaml"));
+    const auto calibrated = run_lightstripe("calibrate " + quoted(data() / "calibration.yaml") + " -o " +
+                                            quoted(data() / "rig.yaml"));
     ASSERT_EQ(calibrated.exit_code, 0) << calibrated.out << calibrated.err;
   }
   static void TearDownTestSuite() { delete folder_; }
@@ -50,14 +51,16 @@ TEST_F(Cli, CalibratedRigIsCloseToTheTrueOne) {
   const Rig rig = read_rig(data() / "rig.yaml"), truth = read_rig(data() / "truth/rig.yaml");
   ASSERT_EQ(rig.sensors.size(), 1U);
   // 9 small poses at half the resolution of the figure scene (0.08 degrees there): four times its budget.
-  const double angle = std::acos(std::min(1.0, rig.sensors[0].laser_planes[0].normal.dot(truth.sensors[0].laser_planes[0].normal)));
+  const double angle = std::acos(
+      std::min(1.0, rig.sensors[0].laser_planes[0].normal.dot(truth.sensors[0].laser_planes[0].normal)));
   EXPECT_LT(angle * 180 / M_PI, 0.32);
   EXPECT_NEAR(rig.sensors[0].camera.fx / truth.sensors[0].camera.fx, 1.0, 0.01);
 }
 
 TEST_F(Cli, ReconstructWritesCloudProfilesAndPreview) {
-  const auto result = run_lightstripe("reconstruct " + quoted(data() / "scan.yaml") + " -o " + quoted(out_ / "cloud.ply") +
-                                      " --profiles " + quoted(out_ / "profiles.csv") + " --preview " + quoted(out_ / "cloud.png"));
+  const auto result = run_lightstripe(
+      "reconstruct " + quoted(data() / "scan.yaml") + " -o " + quoted(out_ / "cloud.ply") + " --profiles " +
+      quoted(out_ / "profiles.csv") + " --preview " + quoted(out_ / "cloud.png"));
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const auto cloud = read_cloud(out_ / "cloud.ply");
   const std::string rows = text_of(out_ / "profiles.csv");
@@ -71,25 +74,33 @@ TEST_F(Cli, ReconstructWritesCloudProfilesAndPreview) {
 TEST_F(Cli, TheNumberOfThreadsDoesNotChangeABit) {
   for (const std::string threads : {"1", "3"}) {
     const auto name = out_ / ("cloud" + threads + ".ply");
-    ASSERT_EQ(run_lightstripe("reconstruct " + quoted(data() / "scan.yaml") + " --threads " + threads + " -o " + quoted(name)).exit_code, 0);
-    ASSERT_EQ(run_lightstripe("calibrate " + quoted(data() / "calibration.yaml") + " --threads " + threads + " -o " +
-                              quoted(out_ / ("rig" + threads + ".yaml"))).exit_code, 0);
+    ASSERT_EQ(run_lightstripe("reconstruct " + quoted(data() / "scan.yaml") + " --threads " + threads +
+                              " -o " + quoted(name))
+                  .exit_code,
+              0);
+    ASSERT_EQ(run_lightstripe("calibrate " + quoted(data() / "calibration.yaml") + " --threads " + threads +
+                              " -o " + quoted(out_ / ("rig" + threads + ".yaml")))
+                  .exit_code,
+              0);
   }
   EXPECT_EQ(text_of(out_ / "cloud1.ply"), text_of(out_ / "cloud3.ply"));
   EXPECT_EQ(text_of(out_ / "rig1.yaml"), text_of(out_ / "rig3.yaml"));
 }
 
 TEST_F(Cli, ExtractWritesTableAndOverlay) {
-  const auto result = run_lightstripe("extract " + some_frame() + " -o " + quoted(out_ / "stripes.csv") + " --overlay " + quoted(out_ / "overlay"));
+  const auto result = run_lightstripe("extract " + some_frame() + " -o " + quoted(out_ / "stripes.csv") +
+                                      " --overlay " + quoted(out_ / "overlay"));
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const std::string rows = text_of(out_ / "stripes.csv");
-  EXPECT_THAT(rows, StartsWith("image,line,x,y,normal_x,normal_y,width,strength,sigma_px\n" + (data() / "scan/solo/0003.png").string() + ",0,"));
+  EXPECT_THAT(rows, StartsWith("image,line,x,y,normal_x,normal_y,width,strength,sigma_px\n" +
+                               (data() / "scan/solo/0003.png").string() + ",0,"));
   EXPECT_TRUE(fs::exists(out_ / "overlay/0003.png"));
 }
 
 TEST_F(Cli, EveryMethodOfTheContractFindsTheStripe) {
   for (const std::string method : {"direction-guided", "steger", "zhou-roi", "centroid"}) {
-    const auto result = run_lightstripe("extract " + some_frame() + " --method " + method + " -o " + quoted(out_ / "s.csv"));
+    const auto result =
+        run_lightstripe("extract " + some_frame() + " --method " + method + " -o " + quoted(out_ / "s.csv"));
     EXPECT_EQ(result.exit_code, 0) << method << result.err;
   }
 }
@@ -99,31 +110,37 @@ TEST_F(Cli, FilesOnStandardOutputOnlyWhenNotQuiet) {
   EXPECT_EQ(result.out + result.err, "");
 }
 
-// ---- the world is wrong: exit code 1 -----------------------------------------------------------------------------
+// ---- the world is wrong: exit code 1
+// -----------------------------------------------------------------------------
 
 TEST_F(Cli, MissingSessionIsNamed) {
   expect_error(run_lightstripe("calibrate " + quoted(out_ / "none.yaml")), 1, "none.yaml");
 }
 
 TEST_F(Cli, MissingImageFolderIsNamed) {
-  write_text(out_ / "s.yaml", "target: {type: checkerboard, inner_corners: [11, 8], square: 10}\n"
-                              "sensors: [{name: solo, board: nowhere/*.png}]\n");
-  expect_error(run_lightstripe("calibrate " + quoted(out_ / "s.yaml") + " -o " + quoted(out_ / "rig.yaml")), 1, "nowhere");
+  write_text(out_ / "s.yaml",
+             "target: {type: checkerboard, inner_corners: [11, 8], square: 10}\n"
+             "sensors: [{name: solo, board: nowhere/*.png}]\n");
+  expect_error(run_lightstripe("calibrate " + quoted(out_ / "s.yaml") + " -o " + quoted(out_ / "rig.yaml")),
+               1, "nowhere");
   EXPECT_FALSE(fs::exists(out_ / "rig.yaml"));
 }
 
 TEST_F(Cli, UnknownKeyIsNamedWithItsLine) {
   std::string text = text_of(data() / "scan.yaml");
   write_text(out_ / "scan.yaml", text + "colour: red\n");
-  const auto result = run_lightstripe("reconstruct " + quoted(out_ / "scan.yaml") + " -o " + quoted(out_ / "c.ply"));
+  const auto result =
+      run_lightstripe("reconstruct " + quoted(out_ / "scan.yaml") + " -o " + quoted(out_ / "c.ply"));
   expect_error(result, 1, "colour");
   EXPECT_THAT(result.err, HasSubstr("line"));
 }
 
 TEST_F(Cli, UnknownExtractionOptionIsNamed) {
-  write_text(out_ / "scan.yaml", "rig: " + (data() / "rig.yaml").string() + "\nframes: {solo: \"" + (data() / "scan/solo/*.png").string() +
+  write_text(out_ / "scan.yaml", "rig: " + (data() / "rig.yaml").string() + "\nframes: {solo: \"" +
+                                     (data() / "scan/solo/*.png").string() +
                                      "\"}\nextraction: {stripe_widht: 5}\n");
-  expect_error(run_lightstripe("reconstruct " + quoted(out_ / "scan.yaml") + " -o " + quoted(out_ / "c.ply")), 1, "stripe_widht");
+  expect_error(run_lightstripe("reconstruct " + quoted(out_ / "scan.yaml") + " -o " + quoted(out_ / "c.ply")),
+               1, "stripe_widht");
 }
 
 TEST_F(Cli, NotANumberInTheRigIsNamed) {
@@ -131,44 +148,74 @@ TEST_F(Cli, NotANumberInTheRigIsNamed) {
   const auto at = text.find("fx: ") + 4;
   text.replace(at, text.find(',', at) - at, ".nan");
   write_text(out_ / "rig.yaml", text);
-  expect_error(run_lightstripe("reconstruct " + quoted(data() / "scan.yaml") + " --rig " + quoted(out_ / "rig.yaml") + " -o " + quoted(out_ / "c.ply")), 1, "fx");
+  expect_error(run_lightstripe("reconstruct " + quoted(data() / "scan.yaml") + " --rig " +
+                               quoted(out_ / "rig.yaml") + " -o " + quoted(out_ / "c.ply")),
+               1, "fx");
 }
 
-TEST_F(Cli, TruncatedFrameEndsTheRunWithoutACloud) {
+TEST_F(Cli, TruncatedFrameIsSkippedAndNamedOrStrictlyEndsTheRunWithoutACloud) {
   fs::copy(data() / "scan", out_ / "scan", fs::copy_options::recursive);
   fs::resize_file(out_ / "scan/solo/0002.png", fs::file_size(out_ / "scan/solo/0002.png") / 2);
-  write_text(out_ / "scan.yaml", "rig: " + (data() / "rig.yaml").string() + "\nframes: {solo: scan/solo/*.png}\ntravel: {step: 2}\n");
-  expect_error(run_lightstripe("reconstruct " + quoted(out_ / "scan.yaml") + " -o " + quoted(out_ / "c.ply")), 1, "0002.png");
-  EXPECT_FALSE(fs::exists(out_ / "c.ply"));
+  write_text(out_ / "scan.yaml", "rig: " + (data() / "rig.yaml").string() +
+                                     "\nframes: {solo: scan/solo/*.png}\ntravel: {step: 2}\n");
+  const std::string command = "reconstruct " + quoted(out_ / "scan.yaml") + " -o " + quoted(out_ / "c.ply");
+  expect_error(run_lightstripe(command + " --strict"), 1, "0002.png");
   for (const auto& entry : fs::directory_iterator(out_.path()))
     EXPECT_NE(entry.path().extension(), ".ply") << "left behind: " << entry.path();
+  const auto tolerant = run_lightstripe(command);
+  EXPECT_EQ(tolerant.exit_code, 0);
+  EXPECT_THAT(tolerant.err, HasSubstr("warning: frame 2 skipped: "));
+  EXPECT_THAT(tolerant.err, HasSubstr("0002.png"));
+  EXPECT_THAT(text_of(out_ / "c.ply.run.yaml"), HasSubstr("pictures_skipped: 1"));
+  for (const auto& point : read_cloud(out_ / "c.ply")) EXPECT_NE(point.frame, 2);
 }
 
-TEST_F(Cli, FramesOfAnotherSizeAreRefused) {
+TEST_F(Cli, FrameOfAnotherSizeIsSkippedARecordingOfThemRefused) {
   fs::copy(data() / "scan", out_ / "scan", fs::copy_options::recursive);
   write_text(out_ / "scan/solo/0002.pgm", "P5\n4 3\n255\n123456789012");
   fs::remove(out_ / "scan/solo/0002.png");
-  write_text(out_ / "scan.yaml", "rig: " + (data() / "rig.yaml").string() + "\nframes: {solo: 'scan/solo/000?.p*'}\ntravel: {step: 2}\n");
-  expect_error(run_lightstripe("reconstruct " + quoted(out_ / "scan.yaml") + " -o " + quoted(out_ / "c.ply")), 1, "0002.pgm");
+  const std::string rig = "rig: " + (data() / "rig.yaml").string();
+  write_text(out_ / "scan.yaml", rig + "\nframes: {solo: 'scan/solo/000?.p*'}\ntravel: {step: 2}\n");
+  const std::string command = "reconstruct " + quoted(out_ / "scan.yaml") + " -o " + quoted(out_ / "c.ply");
+  const auto tolerant = run_lightstripe(command);
+  EXPECT_EQ(tolerant.exit_code, 0);
+  EXPECT_THAT(tolerant.err, HasSubstr("frame 2: the picture has 4 x 3 px"));
+  expect_error(run_lightstripe(command + " --strict"), 1, "frame 2");
+  write_text(out_ / "scan.yaml", rig + "\nframes: {solo: 'scan/solo/*.pgm'}\ntravel: {step: 2}\n");
+  expect_error(run_lightstripe(command), 1, "0002.pgm has 4 x 3 px");
+}
+
+TEST_F(Cli, RecordingWithoutOneReadablePictureIsAnError) {
+  write_text(out_ / "scan/1.png", "");
+  write_text(out_ / "scan/2.png", "no picture");
+  write_text(out_ / "scan.yaml",
+             "rig: " + (data() / "rig.yaml").string() + "\nframes: {solo: scan/*.png}\ntravel: {step: 2}\n");
+  expect_error(run_lightstripe("reconstruct " + quoted(out_ / "scan.yaml") + " -o " + quoted(out_ / "c.ply")),
+               1, "1.png: is empty");
 }
 
 TEST_F(Cli, EmptyScanFolderIsNamed) {
   fs::create_directories(out_ / "scan/solo");
-  write_text(out_ / "scan.yaml", "rig: " + (data() / "rig.yaml").string() + "\nframes: {solo: scan/solo/*.png}\ntravel: {step: 2}\n");
-  expect_error(run_lightstripe("reconstruct " + quoted(out_ / "scan.yaml") + " -o " + quoted(out_ / "c.ply")), 1, "scan/solo");
+  write_text(out_ / "scan.yaml", "rig: " + (data() / "rig.yaml").string() +
+                                     "\nframes: {solo: scan/solo/*.png}\ntravel: {step: 2}\n");
+  expect_error(run_lightstripe("reconstruct " + quoted(out_ / "scan.yaml") + " -o " + quoted(out_ / "c.ply")),
+               1, "scan/solo");
 }
 
 TEST_F(Cli, UnwritableOutputIsNamed) {
   expect_error(run_lightstripe("extract " + some_frame() + " -o /proc/none/s.csv"), 1, "/proc/none");
 }
 
-// ---- done, but not usable: exit code 3 ---------------------------------------------------------------------------
+// ---- done, but not usable: exit code 3
+// ---------------------------------------------------------------------------
 
 TEST_F(Cli, ScanWithoutStripesIsNotUsableAndWritesNothing) {
   const std::string black = "P5\n480 350\n255\n" + std::string(480 * 350, '\0');
   for (const std::string name : {"0.pgm", "1.pgm"}) write_text(out_ / "scan" / name, black);
-  write_text(out_ / "scan.yaml", "rig: " + (data() / "rig.yaml").string() + "\nframes: {solo: scan/*.pgm}\ntravel: {step: 2}\n");
-  const auto result = run_lightstripe("reconstruct " + quoted(out_ / "scan.yaml") + " -o " + quoted(out_ / "c.ply"));
+  write_text(out_ / "scan.yaml",
+             "rig: " + (data() / "rig.yaml").string() + "\nframes: {solo: scan/*.pgm}\ntravel: {step: 2}\n");
+  const auto result =
+      run_lightstripe("reconstruct " + quoted(out_ / "scan.yaml") + " -o " + quoted(out_ / "c.ply"));
   EXPECT_EQ(result.exit_code, 3);
   EXPECT_THAT(result.err, HasSubstr("not usable: no stripe"));
   EXPECT_FALSE(fs::exists(out_ / "c.ply"));
@@ -180,16 +227,19 @@ TEST_F(Cli, WrongCornerCountIsNotUsableAndSaysSo) {
   ASSERT_NE(at, std::string::npos) << text;
   text.replace(at, 22, "inner_corners: [10, 7]");
   write_text(data() / "wrong.yaml", text);
-  const auto result = run_lightstripe("calibrate " + quoted(data() / "wrong.yaml") + " -o " + quoted(out_ / "rig.yaml"));
+  const auto result =
+      run_lightstripe("calibrate " + quoted(data() / "wrong.yaml") + " -o " + quoted(out_ / "rig.yaml"));
   EXPECT_EQ(result.exit_code, 3) << result.err;
   EXPECT_FALSE(fs::exists(out_ / "rig.yaml"));
 }
 
-// ---- wrong usage: exit code 2 ------------------------------------------------------------------------------------
+// ---- wrong usage: exit code 2
+// ------------------------------------------------------------------------------------
 
 TEST_F(Cli, WrongUsageIsExitCode2) {
-  for (const std::string arguments : {"", "frobnicate", "extract", "extract --method", "calibrate", "reconstruct --threads 0 x.yaml",
-                                      "simulate testdata/one_sensor.yaml", "extract --frob x.png"})
+  for (const std::string arguments :
+       {"", "frobnicate", "extract", "extract --method", "calibrate", "reconstruct --threads 0 x.yaml",
+        "simulate testdata/one_sensor.yaml", "extract --frob x.png"})
     EXPECT_EQ(run_lightstripe(arguments).exit_code, 2) << arguments;
 }
 

@@ -75,7 +75,7 @@ Trial trial(std::uint64_t seed) {
   for (auto& sensor : truth.sensors) sensor.camera.distortion[4] = 0;
   const auto observations = testing::observe(truth, {.poses = 12, .seed = 100 + seed});
   CalibrationOptions options;
-  options.distortion_terms = 4;  // the true model: the prediction knows nothing of terms left out
+  options.lens = LensModel::kBrown4;  // the true model: the prediction knows nothing of terms left out
   const auto result = calibrate_rig(observations, options);
   EXPECT_TRUE(result.summary.usable) << result.summary.message;
   Trial trial;

@@ -35,6 +35,7 @@ struct Blocks {
                                              0.01, -0.02, 0.03, 1e-3, 2e-3,  -1e-3, 5e-4, 0.02,  -0.03};
   std::array<double, 7> cam_from_first{}, first_from_board{};
   std::array<double, 4> plane{};
+  std::array<double, 2> warp{0.3, -0.2};
   std::array<double, 3> direction{}, axis_point{10, -20, 500};
 
   Blocks() {
@@ -49,12 +50,18 @@ struct Blocks {
   }
 };
 
+/// A place on an 11 x 8 board of 10 mm pitch.
+BoardPlace place(double x, double y) {
+  return board_place({TargetType::kCheckerboard, 11, 8, 10, 10}, {x, y});
+}
+constexpr std::array<double, 2> kFlat{0, 0};
+
 TEST(CornerResidual, IsThePixelDistanceInSigma) {
   // Board frame = camera frame shifted by 500 mm: the point (50, -25, 500) is seen at f * (0.1, -0.05) + c.
   std::array<double, kIntrinsics> intrinsics{1000, 2000, 300, 200};
   const std::array<double, 7> identity{0, 0, 0, 1, 0, 0, 0}, ahead{0, 0, 0, 1, 0, 0, 500};
-  const CornerResidual residual({50, -25, 0}, {399, 101.5}, 0.5);
-  const double* blocks[] = {intrinsics.data(), identity.data(), ahead.data()};
+  const CornerResidual residual(place(50, -25), {399, 101.5}, 0.5);
+  const double* blocks[] = {intrinsics.data(), identity.data(), ahead.data(), kFlat.data()};
   double r[2];
   ASSERT_TRUE(residual.Evaluate(blocks, r, nullptr));
   EXPECT_NEAR(r[0], (400 - 399) / 0.5, 1e-12);
@@ -64,18 +71,19 @@ TEST(CornerResidual, IsThePixelDistanceInSigma) {
 TEST(CornerResidual, RefusesPointsBehindTheCamera) {
   const Blocks b;
   const std::array<double, 7> behind{0, 0, 0, 1, 0, 0, -5000};
-  const CornerResidual residual({0, 0, 0}, {0, 0}, 1);
-  const double* blocks[] = {b.intrinsics.data(), b.cam_from_first.data(), behind.data()};
+  const CornerResidual residual(place(0, 0), {0, 0}, 1);
+  const double* blocks[] = {b.intrinsics.data(), b.cam_from_first.data(), behind.data(), kFlat.data()};
   double r[2];
   EXPECT_FALSE(residual.Evaluate(blocks, r, nullptr));
 }
 
 TEST(CornerResidual, GradientAgreesWithDifferences) {
   const Blocks b;
-  const CornerResidual residual({30, 40, 0}, {500, 400}, 0.07);
+  const CornerResidual residual(place(30, 40), {500, 400}, 0.07);
   std::string why;
   EXPECT_TRUE(gradients_agree(
-      residual, {b.intrinsics.data(), b.cam_from_first.data(), b.first_from_board.data()}, &why))
+      residual, {b.intrinsics.data(), b.cam_from_first.data(), b.first_from_board.data(), b.warp.data()},
+      &why))
       << why;
 }
 
@@ -83,8 +91,9 @@ TEST(TravelCornerResidual, ShiftsThePointAlongTheDirection) {
   std::array<double, kIntrinsics> intrinsics{1000, 1000, 0, 0};
   const std::array<double, 7> identity{0, 0, 0, 1, 0, 0, 0}, ahead{0, 0, 0, 1, 0, 0, 500};
   const std::array<double, 3> along_y{0, 1, 0}, origin{0, 0, 0};
-  const TravelCornerResidual residual({0, 0, 0}, {0, 0}, 1, MotionType::kLinear, 25);
-  const double* blocks[] = {intrinsics.data(), identity.data(), ahead.data(), along_y.data(), origin.data()};
+  const TravelCornerResidual residual(place(0, 0), {0, 0}, 1, MotionType::kLinear, 25);
+  const double* blocks[] = {intrinsics.data(), identity.data(), ahead.data(),
+                            kFlat.data(),      along_y.data(),  origin.data()};
   double r[2];
   ASSERT_TRUE(residual.Evaluate(blocks, r, nullptr));
   EXPECT_NEAR(r[0], 0, 1e-12);
@@ -96,8 +105,9 @@ TEST(TravelCornerResidual, TurnsThePointAboutTheAxis) {
   std::array<double, kIntrinsics> intrinsics{1000, 1000, 0, 0};
   const std::array<double, 7> identity{0, 0, 0, 1, 0, 0, 0}, ahead{0, 0, 0, 1, 0, 0, 500};
   const std::array<double, 3> along_y{0, 1, 0}, on_axis{0, 7, 500};
-  const TravelCornerResidual residual({100, 20, 0}, {0, 0}, 1, MotionType::kRotary, std::acos(-1.0) / 2);
-  const double* blocks[] = {intrinsics.data(), identity.data(), ahead.data(), along_y.data(), on_axis.data()};
+  const TravelCornerResidual residual(place(100, 20), {0, 0}, 1, MotionType::kRotary, std::acos(-1.0) / 2);
+  const double* blocks[] = {intrinsics.data(), identity.data(), ahead.data(),
+                            kFlat.data(),      along_y.data(),  on_axis.data()};
   double r[2];
   ASSERT_TRUE(residual.Evaluate(blocks, r, nullptr));
   EXPECT_NEAR(r[0], 0, 1e-10);
@@ -108,11 +118,11 @@ TEST(TravelCornerResidual, GradientAgreesWithDifferences) {
   const Blocks b;
   std::string why;
   for (const auto motion : {MotionType::kLinear, MotionType::kRotary}) {
-    const TravelCornerResidual residual({30, 40, 0}, {500, 400}, 0.07, motion,
+    const TravelCornerResidual residual(place(30, 40), {500, 400}, 0.07, motion,
                                         motion == MotionType::kLinear ? 25 : 0.3);
     EXPECT_TRUE(gradients_agree(residual,
                                 {b.intrinsics.data(), b.cam_from_first.data(), b.first_from_board.data(),
-                                 b.direction.data(), b.axis_point.data()},
+                                 b.warp.data(), b.direction.data(), b.axis_point.data()},
                                 &why))
         << why;
   }
@@ -131,8 +141,8 @@ TEST(StripeResidual, IsTheDistanceToTheProjectedLine) {
   ASSERT_TRUE(frame);
   EXPECT_NEAR(std::abs(frame->normal.x()), 1, 1e-9);
   EXPECT_NEAR(std::abs(frame->distance_px), 2, 1e-9);
-  const StripeResidual residual(pixel, frame->normal, frame->across, 0.1);
-  const double* blocks[] = {intrinsics.data(), identity.data(), ahead.data(), plane.data()};
+  const StripeResidual residual(place(100, 0), pixel, frame->normal, frame->across, 0.1);
+  const double* blocks[] = {intrinsics.data(), identity.data(), ahead.data(), kFlat.data(), plane.data()};
   double r = 0;
   ASSERT_TRUE(residual.Evaluate(blocks, &r, nullptr));
   EXPECT_NEAR(std::abs(r), 2 / 0.1, 1e-6);
@@ -155,10 +165,11 @@ TEST(StripeResidual, GradientAgreesWithDifferences) {
   const auto frame =
       stripe_frame(camera, board_plane(cam_from_board), {n, plane[3]}, *pixel + Vector2d(0.5, -0.3));
   ASSERT_TRUE(frame);
-  const StripeResidual residual(*pixel, frame->normal, frame->across, 0.1);
+  const StripeResidual residual(place(7, 22), *pixel, frame->normal, frame->across, 0.1);
   std::string why;
   EXPECT_TRUE(gradients_agree(
-      residual, {b.intrinsics.data(), b.cam_from_first.data(), b.first_from_board.data(), plane.data()},
+      residual,
+      {b.intrinsics.data(), b.cam_from_first.data(), b.first_from_board.data(), b.warp.data(), plane.data()},
       &why))
       << why;
 }

@@ -69,12 +69,13 @@ TEST(RigOf, TurnsARotaryAxisToGrowWithY) {
 TEST(MovedState, MovesTheUnknownThatTheColumnNames) {
   using Kind = GlobalBlock::Kind;
   const auto state = one_sensor();
-  const std::vector<GlobalBlock> globals{{Kind::kIntrinsics, 0, 0, 0, 9}, {Kind::kLaserPlane, 0, 0, 9, 3}};
+  const std::vector<GlobalBlock> globals{{Kind::kIntrinsics, 0, 0, 0, 9, LensModel::kBrown5},
+                                         {Kind::kLaserPlane, 0, 0, 9, 3}};
   Eigen::VectorXd delta = Eigen::VectorXd::Zero(12);
   delta[0] = 2;     // fx
   delta[5] = 0.01;  // k2
   delta[11] = 0.5;  // the plane's offset
-  const auto after = moved_state(state, globals, delta, 5);
+  const auto after = moved_state(state, globals, delta);
   EXPECT_EQ(after.sensors[0].camera.fx, 1602);
   EXPECT_EQ(after.sensors[0].camera.fy, 1600);
   EXPECT_EQ(after.sensors[0].camera.distortion[1], 0.01);

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "calib/board_surface.h"
 #include "calib/observations.h"
 #include "calib/rig_state.h"
 #include "core/random.h"
@@ -70,6 +71,7 @@ struct SessionOptions {
   int travel_steps = 6;        ///< 0: no motion
   double travel_mm = 60;       ///< from first to last
   std::uint64_t seed = 0;
+  Eigen::Vector2d board_warp_mm = Eigen::Vector2d::Zero();
 };
 
 /// Faces the middle between the sensors, then tilted, turned and shifted at random.
@@ -88,11 +90,11 @@ inline Rigid3 random_board(const SyntheticRig& rig, const SessionOptions& option
 }
 
 inline std::vector<Eigen::Vector2d> seen_corners(const Target& target, const Camera& camera,
-                                                 const Rigid3& cam_from_board) {
+                                                 const Rigid3& cam_from_board,
+                                                 const Eigen::Vector2d& warp_mm = Eigen::Vector2d::Zero()) {
   std::vector<Eigen::Vector2d> corners;
   for (int i = 0; i < target.num_corners(); ++i) {
-    const Eigen::Vector2d p = target.corner(i);
-    const auto q = project(camera, cam_from_board * Eigen::Vector3d(p.x(), p.y(), 0));
+    const auto q = project(camera, cam_from_board * board_place(target, target.corner(i)).point(warp_mm));
     corners.push_back(q.value_or(Eigen::Vector2d(-1, -1)));
   }
   return corners;
@@ -102,17 +104,34 @@ inline bool inside(const Camera& camera, const Eigen::Vector2d& q) {
   return q.x() > 0 && q.y() > 0 && q.x() < camera.width - 1 && q.y() < camera.height - 1;
 }
 
+/// A point of the laser plane on the flat board, moved within the laser plane to the warped one.
+inline Eigen::Vector3d on_warped_board(const Target& target, const Rigid3& cam_from_board, const Plane& laser,
+                                       const StripeLine& line, Eigen::Vector3d p_cam,
+                                       const Eigen::Vector2d& warp_mm) {
+  const Rigid3 board_from_cam = cam_from_board.inverse();
+  const Eigen::Vector3d up = laser.normal.cross(line.direction);
+  const double rise = (board_from_cam.rotation * up).z();
+  for (int i = 0; i < 4; ++i) {
+    const Eigen::Vector3d p = board_from_cam * p_cam;
+    p_cam += (board_place(target, p.head<2>()).weights.dot(warp_mm) - p.z()) / rise * up;
+  }
+  return p_cam;
+}
+
 /// Where the laser crosses the board, as exact stripe points of unit-less width.
 inline std::vector<StripePoint> seen_stripe(const Target& target, const SensorState& sensor,
-                                            const Rigid3& cam_from_board, double spacing_px) {
+                                            const Rigid3& cam_from_board, double spacing_px,
+                                            const Eigen::Vector2d& warp_mm = Eigen::Vector2d::Zero(),
+                                            std::size_t plane = 0) {
   std::vector<StripePoint> points;
-  const auto line = stripe_line(board_plane(cam_from_board), sensor.laser_planes.front());
+  const auto line = stripe_line(board_plane(cam_from_board), sensor.laser_planes[plane]);
   if (!line) return points;
   const Rigid3 board_from_cam = cam_from_board.inverse();
   constexpr double kStep_mm = 0.5;  // while off the board
   double step_mm = kStep_mm;
   for (double s = -400; s < 400; s += step_mm) {
-    const Eigen::Vector3d p_cam = line->point + s * line->direction;
+    const Eigen::Vector3d p_cam = on_warped_board(target, cam_from_board, sensor.laser_planes[plane], *line,
+                                                  line->point + s * line->direction, warp_mm);
     const Eigen::Vector3d p = board_from_cam * p_cam;
     const bool on_board = p.x() > -target.pitch_x && p.x() < target.columns * target.pitch_x &&
                           p.y() > -target.pitch_y && p.y() < target.rows * target.pitch_y;
@@ -171,7 +190,7 @@ inline MotionObservations observe_travel(const SyntheticRig& rig, const SessionO
     seen.translation -= sensor.cam_from_first.rotation * (travel * rig.direction);
     BoardView view;
     view.image = "travel_" + std::to_string(i);
-    view.corners = seen_corners(rig.target, sensor.camera, seen);
+    view.corners = seen_corners(rig.target, sensor.camera, seen, options.board_warp_mm);
     add_noise(view, options, random);
     motion.views.push_back(view);
     motion.travel.push_back(travel);
@@ -198,7 +217,8 @@ inline CalibrationObservations observe(const SyntheticRig& rig, const SessionOpt
                                              : "extra" + std::to_string(s),
                                     960,
                                     700,
-                                    1,
+                                    static_cast<int>(rig.sensors[s].laser_planes.size()),
+                                    {},
                                     {}});
   for (int pose = 0; pose < options.poses; ++pose) {
     const Rigid3& first_from_board = poses[static_cast<std::size_t>(pose)];
@@ -207,8 +227,10 @@ inline CalibrationObservations observe(const SyntheticRig& rig, const SessionOpt
       BoardView view;
       view.pose = std::to_string(pose);
       view.image = observations.sensors[s].name + "_" + view.pose;
-      view.corners = seen_corners(rig.target, rig.sensors[s].camera, cam_from_board);
-      view.stripes = {seen_stripe(rig.target, rig.sensors[s], cam_from_board, options.stripe_width_px)};
+      view.corners = seen_corners(rig.target, rig.sensors[s].camera, cam_from_board, options.board_warp_mm);
+      for (std::size_t p = 0; p < rig.sensors[s].laser_planes.size(); ++p)
+        view.stripes.push_back(seen_stripe(rig.target, rig.sensors[s], cam_from_board,
+                                           options.stripe_width_px, options.board_warp_mm, p));
       add_noise(view, options, random);
       observations.sensors[s].views.push_back(view);
     }

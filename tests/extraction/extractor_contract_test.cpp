@@ -177,7 +177,8 @@ TEST_P(ExtractorContract, SixteenBitsGiveTheSameLine) {
 
 INSTANTIATE_TEST_SUITE_P(Methods, ExtractorContract,
                          testing::Values(ExtractionMethod::kDirectionGuided, ExtractionMethod::kSteger,
-                                         ExtractionMethod::kZhouRoi, ExtractionMethod::kCentroid),
+                                         ExtractionMethod::kZhouRoi, ExtractionMethod::kHuRecursive,
+                                         ExtractionMethod::kCentroid, ExtractionMethod::kExtremum),
                          [](const auto& method) {
                            std::string name(enum_name(method.param));
                            std::erase(name, '-');

@@ -28,7 +28,7 @@ TEST(FrameSource, OpensARealScan) {
   const auto frames = open_frames(kData, "pot/scan/*.png", Channel::kAuto);
   ASSERT_EQ(frames->size(), 36);
   EXPECT_EQ(frames->name(35), "035.png");
-  const Image8 image = frames->read(35);
+  const auto image = std::get<Image8>(frames->read(35));
   EXPECT_EQ(image.width, 1152);
   EXPECT_EQ(image.height, 768);
 }

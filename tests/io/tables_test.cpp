@@ -46,13 +46,17 @@ TEST(FrameTravel, TakesWindowsLinesCommentsBlanksAndAByteOrderMark) {
   EXPECT_THAT(travel_of("frame,travel_mm\n5,1"), ElementsAre(Pair(5, 1.0)));
 }
 
+TEST(FrameTravel, ARowWithoutAReadingIsLeftOut) {
+  EXPECT_THAT(travel_of("frame,travel_mm\n0,1\n1,\n2,3\n"), ElementsAre(Pair(0, 1.0), Pair(2, 3.0)));
+}
+
 TEST(FrameTravel, NamesTheLineOfABadRow) {
   EXPECT_EQ(travel_complaint("frame,travel_mm\n0,1\n1\n"),
             "t.csv:3: has 1 cells, the first line 2; complete the row");
   EXPECT_THAT(travel_complaint("frame,travel_mm\n0,1,2\n"), HasSubstr("t.csv:2: has 3 cells"));
   EXPECT_EQ(travel_complaint("frame,travel_mm\n# x\n0,nan\n"),
             "t.csv:3: travel_mm is 'nan'; give a finite number with a decimal point");
-  EXPECT_THAT(travel_complaint("frame,travel_mm\n0,\n"), HasSubstr("t.csv:2: travel_mm is ''"));
+  EXPECT_THAT(travel_complaint("frame,travel_mm\n0,\n"), HasSubstr("has no rows with a position"));
   EXPECT_THAT(travel_complaint("frame,travel_mm\n0.5,1\n"), HasSubstr("frame is '0.5'; give a whole number"));
   EXPECT_EQ(travel_complaint("frame,travel_mm\n3,1\n3,1\n"), "t.csv:3: frame 3 is given twice; keep one row");
   EXPECT_THAT(travel_complaint("frame,travel_mm\n\"0,1\n"), HasSubstr("t.csv:2: a quoted cell does not end"));

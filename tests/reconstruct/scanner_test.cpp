@@ -41,7 +41,8 @@ Image8 numbered_image(std::int64_t frame, int sensor) {
 
 // In place of the extraction: points that depend on the picture only, after a time that depends on it too, so
 // that frames overtake each other.
-std::vector<Stripe> stripes_of_numbered_image(ImageView8 image) {
+std::vector<Stripe> stripes_of_numbered_image(const GreyImage& picture) {
+  const auto& image = std::get<Image8>(picture);
   Random random(image(0, 0), image(1, 0));
   std::this_thread::sleep_for(std::chrono::microseconds(random.bits() % 300));
   Stripe stripe;
@@ -56,7 +57,7 @@ std::vector<Stripe> stripes_of_numbered_image(ImageView8 image) {
 
 ScanInput numbered_input() {
   ScanInput input;
-  input.num_frames = kFrames;
+  input.end_frame = kFrames;
   input.read = [](std::int64_t frame, int sensor) { return numbered_image(frame, sensor); };
   input.position = [](std::int64_t frame) { return FramePosition{2.0 * static_cast<double>(frame), {}}; };
   return input;
@@ -64,8 +65,9 @@ ScanInput numbered_input() {
 
 std::vector<Profile> scan(const ScanInput& input, int threads, ScanSummary* summary = nullptr) {
   std::vector<Profile> profiles;
-  const auto result = scan_profiles(input, two_sensor_rig(), StripeExtractor(stripes_of_numbered_image),
-                                    threads, [&](const Profile& profile) { profiles.push_back(profile); });
+  const auto result =
+      scan_profiles(input, two_sensor_rig(), StripeExtractor(stripes_of_numbered_image), threads,
+                    [&](const ScannedFrame& frame) { profiles.push_back(frame.profile); });
   if (summary) *summary = result;
   return profiles;
 }
@@ -114,7 +116,7 @@ TEST(ScanProfiles, FramesWithoutPositionAreLeftOutAndCounted) {
   };
   ScanSummary summary;
   const auto profiles = scan(input, 3, &summary);
-  EXPECT_EQ(summary.frames_without_position, kFrames / 3);
+  EXPECT_EQ(summary.without_position.count, kFrames / 3);
   ASSERT_EQ(summary.frames, kFrames - kFrames / 3);
   EXPECT_EQ(profiles[0].frame, 1);
   EXPECT_EQ(profiles[1].frame, 2);
@@ -123,7 +125,7 @@ TEST(ScanProfiles, FramesWithoutPositionAreLeftOutAndCounted) {
 
 TEST(ScanProfiles, MissingPicturesGiveShorterOrEmptyProfiles) {
   ScanInput input = numbered_input();
-  input.read = [](std::int64_t frame, int sensor) -> std::optional<Image8> {
+  input.read = [](std::int64_t frame, int sensor) -> std::optional<GreyImage> {
     if (frame == 7 || (frame == 9 && sensor == 0)) return std::nullopt;
     return numbered_image(frame, sensor);
   };
@@ -136,16 +138,86 @@ TEST(ScanProfiles, MissingPicturesGiveShorterOrEmptyProfiles) {
   EXPECT_EQ(summary.frames_without_points, 1);
 }
 
+TEST(ScanProfiles, PicturesThatCannotBeUsedAreSkippedAndNamed) {
+  ScanInput input = numbered_input();
+  input.read = [](std::int64_t frame, int sensor) {
+    if (frame == 7) throw Error("7.png", "ends before its picture does", "record it again");
+    return frame == 12 && sensor == 1 ? Image8(31, 24, 0) : numbered_image(frame, sensor);
+  };
+  std::vector<ScannedFrame> frames;
+  const auto summary = scan_profiles(input, two_sensor_rig(), StripeExtractor(stripes_of_numbered_image), 3,
+                                     [&](const ScannedFrame& frame) { frames.push_back(frame); });
+  ASSERT_EQ(frames.size(), kFrames);
+  ASSERT_EQ(frames[7].skipped.size(), 2u);
+  EXPECT_EQ(frames[7].pictures, 0);
+  EXPECT_EQ(frames[7].skipped[1].sensor, 1);
+  EXPECT_THAT(frames[7].skipped[1].reason, HasSubstr("7.png: ends before"));
+  ASSERT_EQ(frames[12].skipped.size(), 1u);
+  EXPECT_EQ(frames[12].profile.points.size(), 5u);
+  EXPECT_THAT(frames[12].skipped[0].reason, HasSubstr("field, frame 12: the picture has 31 x 24 px"));
+  EXPECT_EQ(summary.pictures_skipped, 3);
+  EXPECT_EQ(summary.pictures, 2 * kFrames - 3);
+}
+
+TEST(ScanProfiles, OtherExceptionsOfAReaderEndTheRunAlsoWhereErrorsAreSkipped) {
+  for (const int threads : {1, 4}) {
+    ScanInput input = numbered_input();
+    input.read = [](std::int64_t frame, int sensor) {
+      if (frame == 20) throw 42;  // not even a std::exception
+      return numbered_image(frame, sensor);
+    };
+    EXPECT_THROW(scan(input, threads), int);
+    input = numbered_input();
+    input.encode = [](ScannedFrame& frame) {
+      if (frame.profile.frame == 20) throw std::length_error("encode");
+    };
+    EXPECT_THROW(scan(input, threads), std::length_error);
+  }
+}
+
+TEST(ScanProfiles, ARangeOfFramesGivesTheSameProfilesAsTheWholeScan) {
+  const auto whole = scan(numbered_input(), 4);
+  ScanInput input = numbered_input();
+  input.first_frame = 30;
+  input.end_frame = 50;
+  const auto part = scan(input, 4);
+  ASSERT_EQ(part.size(), 20u);
+  for (std::size_t f = 0; f < part.size(); ++f) {
+    EXPECT_EQ(part[f].frame, whole[30 + f].frame);
+    EXPECT_EQ(part[f].travel, whole[30 + f].travel);
+    EXPECT_EQ(part[f].points[3].position, whole[30 + f].points[3].position);
+  }
+}
+
+TEST(ScanProfiles, FramesThatWereNeverRecordedArePassedOverSilently) {
+  ScanInput input = numbered_input();
+  input.recorded = [](std::int64_t frame) { return frame % 10 == 0; };
+  ScanSummary summary;
+  EXPECT_EQ(scan(input, 2, &summary).size(), kFrames / 10);
+  EXPECT_TRUE(summary.without_position.empty());
+}
+
+TEST(ScanProfiles, InterpolatedFramesAreNamed) {
+  ScanInput input = numbered_input();
+  input.position = [](std::int64_t frame) {
+    return FramePosition{1.0, std::nullopt, frame == 3 || frame == 4 || frame == 9};
+  };
+  ScanSummary summary;
+  scan(input, 3, &summary);
+  EXPECT_EQ(summary.interpolated.text(), "3 to 4, 9");
+}
+
 TEST(ScanProfiles, AnEmptyScanHandsOnNothing) {
   ScanInput input = numbered_input();
-  input.num_frames = 0;
+  input.end_frame = 0;
   ScanSummary summary;
   EXPECT_TRUE(scan(input, 4, &summary).empty());
   EXPECT_EQ(summary.frames, 0);
 }
 
-TEST(ScanProfiles, PictureOfAnotherSizeIsAnErrorThatNamesTheFrame) {
+TEST(ScanProfiles, StrictPictureOfAnotherSizeIsAnErrorThatNamesTheFrame) {
   ScanInput input = numbered_input();
+  input.strict = true;
   input.read = [](std::int64_t frame, int sensor) {
     return frame == 12 && sensor == 1 ? Image8(31, 24, 0) : numbered_image(frame, sensor);
   };
@@ -162,6 +234,7 @@ TEST(ScanProfiles, PictureOfAnotherSizeIsAnErrorThatNamesTheFrame) {
 TEST(ScanProfiles, ExceptionsOfEveryCallbackComeOut) {
   for (int threads : {1, 4}) {
     ScanInput bad_read = numbered_input(), bad_position = numbered_input();
+    bad_read.strict = true;
     bad_read.read = [](std::int64_t frame, int sensor) {
       if (frame == 20) throw Error("frame 20", "cannot be read", "look at it");
       return numbered_image(frame, sensor);
@@ -172,14 +245,14 @@ TEST(ScanProfiles, ExceptionsOfEveryCallbackComeOut) {
       return FramePosition{};
     };
     EXPECT_THROW(scan(bad_position, threads), std::out_of_range);
-    const auto bad_extractor = [](ImageView8) -> std::vector<Stripe> { throw std::bad_alloc(); };
+    const auto bad_extractor = [](const GreyImage&) -> std::vector<Stripe> { throw std::bad_alloc(); };
     EXPECT_THROW(
-        scan_profiles(numbered_input(), two_sensor_rig(), bad_extractor, threads, [](const Profile&) {}),
+        scan_profiles(numbered_input(), two_sensor_rig(), bad_extractor, threads, [](const ScannedFrame&) {}),
         std::bad_alloc);
     std::int64_t last = -1;
-    const auto bad_sink = [&](const Profile& profile) {
-      last = profile.frame;
-      if (profile.frame == 20) throw Error("cloud.ply", "disk full", "make room");
+    const auto bad_sink = [&](const ScannedFrame& frame) {
+      last = frame.profile.frame;
+      if (last == 20) throw Error("cloud.ply", "disk full", "make room");
     };
     EXPECT_THROW(scan_profiles(numbered_input(), two_sensor_rig(), StripeExtractor(stripes_of_numbered_image),
                                threads, bad_sink),
@@ -190,6 +263,7 @@ TEST(ScanProfiles, ExceptionsOfEveryCallbackComeOut) {
 
 TEST(ScanProfiles, OfSeveralFailuresThatOfTheFirstFrameComesOut) {
   ScanInput input = numbered_input();
+  input.strict = true;
   input.read = [](std::int64_t frame, int sensor) {
     if (frame == 20) std::this_thread::sleep_for(std::chrono::milliseconds(20));
     if (frame >= 20) throw Error("frame " + std::to_string(frame), "cannot be read", "look at it");
@@ -219,7 +293,7 @@ TEST(ScanProfiles, FramesUnderWayAreBoundedWhenTheSinkIsSlow) {
       return numbered_image(frame, sensor);
     };
     scan_profiles(input, two_sensor_rig(), StripeExtractor(stripes_of_numbered_image), threads,
-                  [&](const Profile&) {
+                  [&](const ScannedFrame&) {
                     std::this_thread::sleep_for(std::chrono::milliseconds(1));
                     ++handed_on;
                     done = handed_on;
@@ -235,9 +309,9 @@ TEST(ScanProfiles, AStopEndsTheRunAfterTheFramesUnderWay) {
   input.stop = stop.get_token();
   std::int64_t frames = 0;
   const auto summary = scan_profiles(input, two_sensor_rig(), StripeExtractor(stripes_of_numbered_image), 2,
-                                     [&](const Profile& profile) {
-                                       EXPECT_EQ(profile.frame, frames++);
-                                       if (profile.frame == 30) stop.request_stop();
+                                     [&](const ScannedFrame& frame) {
+                                       EXPECT_EQ(frame.profile.frame, frames++);
+                                       if (frame.profile.frame == 30) stop.request_stop();
                                      });
   EXPECT_TRUE(summary.stopped);
   EXPECT_EQ(summary.frames, frames);
@@ -262,15 +336,16 @@ TEST(ScanProfiles, PicturesOfAStripeBecomeSectionsByTheRealExtraction) {
   rig.sensors.push_back(
       {"gauge", {240, 120, 1000, 1000, 120, -140, {}}, {{Eigen::Vector3d::UnitY(), 100}}, {}});
   ScanInput input;
-  input.num_frames = 8;
-  input.read = [](std::int64_t frame, int) {
+  input.end_frame = 8;
+  input.read = [](std::int64_t frame, int) -> std::optional<GreyImage> {
     return picture_of_level_stripe(60 + 0.37 * static_cast<double>(frame));
   };
   input.position = [](std::int64_t) { return FramePosition{}; };
   ExtractionOptions options;
   options.stripe_width = 2 * std::sqrt(3.0) * 2;
   std::int64_t frames = 0;
-  scan_profiles(input, rig, options, 2, [&](const Profile& profile) {
+  scan_profiles(input, rig, options, 2, [&](const ScannedFrame& frame) {
+    const Profile& profile = frame.profile;
     const double z = 100 * 1000 / (200 + 0.37 * static_cast<double>(profile.frame));
     EXPECT_GT(profile.points.size(), 200u);
     // 0.02 px (rounding to 8 bits, no noise) are 0.02 * z^2 / 1e5 = 0.05 mm.

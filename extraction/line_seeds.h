@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+// Where lines may begin: pixels that stand out over both sides of a stripe (the paper's step 2, its search).
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/image.h"
+
+namespace lightstripe {
+
+/// One place where a line may begin.
+struct LineSeed {
+  std::int32_t x = 0, y = 0;
+  std::int32_t rank = 0;  ///< contrast, 0..255 of the strongest
+  bool foreground = false;
+};
+
+struct SeedRule {
+  double level = 0;       ///< grey levels: nothing begins below it
+  double foreground = 0;  ///< grey levels: lines begin here first
+  double contrast = 1;    ///< grey levels over the surroundings
+  double sigma = 1;       ///< px, the stripes' scale
+  double brightest = 1;   ///< the image's largest grey level
+};
+
+struct SeedWorkspace {
+  std::vector<LineSeed> found, sorted;
+  std::vector<std::uint64_t> candidate_masks;
+  std::vector<std::uint8_t> zeros8;
+  std::vector<std::uint16_t> zeros16;
+};
+
+/// The candidates of every few rows in `workspace.sorted`: foreground before undecided pixels, then by
+/// falling contrast, then in reading order. Of a wide stripe only every few pixels are taken.
+template <class T>
+void find_seeds(ImageView<T> image, const SeedRule& rule, SeedWorkspace& workspace);
+
+}  // namespace lightstripe

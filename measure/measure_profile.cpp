@@ -1,0 +1,77 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+#include "measure/measure_profile.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace lightstripe {
+namespace {
+
+/// A wheel is measured completely without these: the section may end before the outer face, a linear scan
+/// knows no axis.
+bool optional_estimate(const std::string& name) { return name == "rim_width" || name == "diameter"; }
+
+std::string status_of(const MeasuredFrame& row, const MeasureOptions& options) {
+  if (!row.registration.usable()) return row.registration.reason;
+  for (const NamedEstimate& one : row.estimates)
+    if (!one.estimate.value && !optional_estimate(one.name)) return one.name + ": " + one.estimate.reason;
+  for (const NamedEstimate& one : row.extras)
+    if (one.name == "overlap_gap" && one.estimate.value &&
+        std::abs(*one.estimate.value) > options.max_overlap_gap_mm)
+      return fmt::format("overlap gap {:.3f} mm, limit {:.3f}: check the calibration", *one.estimate.value,
+                         options.max_overlap_gap_mm);
+  return "ok";
+}
+
+void add_rail(const Section& section, const MeasuredObject& object, const MeasureOptions& options,
+              MeasuredFrame& row) {
+  RailMeasurement rail = measure_rail(section, object.reference, row.registration, options.rail);
+  visit_estimates([&](const char* name, const Estimate& e) { row.estimates.push_back({name, e}); }, rail);
+  row.extras.push_back({"crown_radius", rail.crown_radius});
+  row.extras.push_back({"lip", rail.lip});
+  row.extras.push_back(
+      {"overlap_gap", row.registration.view == RegistrationView::kNone
+                          ? Estimate::unknown(row.registration.reason)
+                          : overlap_gap(place(section, object.reference, row.registration))});
+}
+
+}  // namespace
+
+MeasuredFrame measure_profile(const Profile& profile, const MeasuredObject& object,
+                              const MeasureOptions& options) {
+  MeasuredFrame row;
+  row.frame = profile.frame;
+  row.travel = profile.travel;
+  row.nominal = object.reference.name();
+  const Section section = section_of(profile);
+  row.registration = register_section(section, object.reference, object.prior, options.registration);
+  if (object.reference.kind() == ObjectKind::kRail) {
+    add_rail(section, object, options, row);
+  } else {
+    WheelMeasurement wheel =
+        measure_wheel(section, object.reference, row.registration, object.wheel, options.wheel);
+    visit_estimates([&](const char* name, const Estimate& e) { row.estimates.push_back({name, e}); }, wheel);
+  }
+  row.status = status_of(row, options);
+  return row;
+}
+
+std::vector<std::string> estimate_names(ObjectKind kind) {
+  std::vector<std::string> names;
+  const auto keep = [&](const char* name, const Estimate&) { names.emplace_back(name); };
+  RailMeasurement rail;
+  WheelMeasurement wheel;
+  if (kind == ObjectKind::kRail) visit_estimates(keep, rail);
+  if (kind == ObjectKind::kWheel) visit_estimates(keep, wheel);
+  return names;
+}
+
+std::vector<std::string> extra_names(ObjectKind kind) {
+  if (kind == ObjectKind::kRail) return {"crown_radius", "lip", "overlap_gap"};
+  return {};
+}
+
+}  // namespace lightstripe

@@ -1,0 +1,138 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+#include "measure/measure_rail.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "measure/rail_head.h"
+#include "measure/robust_line.h"
+#include "measure/surface_fit.h"
+
+namespace lightstripe {
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr double kDegrees = 180 / std::numbers::pi;
+
+Estimate wear_of(const SurfaceFit& fit, const Registration& registration, const std::string& what) {
+  if (!fit.known()) return Estimate::unknown(what + " " + fit.reason);
+  return Estimate::known(fit.wear_mm, sigma_of(fit, registration));
+}
+
+/// The corner's place on the reference: where its normal looks 45 deg up and out.
+Estimate corner_wear(const PlacedSection& placed, int side) {
+  const Vector2d outwards = Vector2d(side, 1).normalized();
+  double best = -1e300;
+  Vector2d corner = Vector2d::Zero();
+  for (const OutlineSample& point : sample(placed.reference.outline(), 0.25)) {
+    if (point.position.y() < placed.reference.head_bottom_v()) continue;
+    const double reach = point.position.dot(outwards);
+    if (reach > best) best = reach, corner = point.position;
+  }
+  return wear_of(fit_surface(placed, {corner, outwards, -2, 2, 16, 2}), placed.registration, "gauge corner");
+}
+
+/// A head face at a height. Its line is carried up from some way below: at the gauge point the stripe begins
+/// to bend into the corner, and the images of sharp bends are drawn inwards a little. A face that is no
+/// straight line against the reference's is taken where it is asked for.
+SurfaceFit fit_face(const PlacedSection& placed, int side, double v) {
+  constexpr double kBelowMm = 8, kAboveMm = 1.0, kReachMm = 60, kStraightMm = 0.02;
+  const Vector2d outwards(side, 0);
+  SurfaceProbe probe{{0, v}, outwards, -kBelowMm, kAboveMm, kReachMm, 1};
+  if (side < 0) probe.from_mm = -kAboveMm, probe.to_mm = kBelowMm;
+  const SurfaceFit straight = fit_surface(placed, probe);
+  if (straight.known() && straight.rms_mm < kStraightMm) return straight;
+  return fit_surface(placed, {{0, v}, outwards, -kAboveMm, kAboveMm, kReachMm, 2});
+}
+
+Estimate width_of(const PlacedSection& placed, double depth_v) {
+  const SurfaceFit right = fit_face(placed, 1, depth_v), left = fit_face(placed, -1, depth_v);
+  if (!right.known()) return Estimate::unknown("head face +y " + right.reason);
+  if (!left.known()) return Estimate::unknown("head face -y " + left.reason);
+  // Along two opposite directions: a shift cancels, so do the responses' sum.
+  return Estimate::known(right.along_mm + left.along_mm, sigma_of_sum(right, left, placed.registration));
+}
+
+Estimate face_angle(const PlacedSection& placed, int side, double gauge_v) {
+  constexpr double kFewestMm = 6, kLongestMm = 20;
+  const double lowest = std::max(placed.reference.head_bottom_v() + 1, gauge_v - kLongestMm);
+  if (gauge_v - lowest < kFewestMm) return Estimate::unknown("too little of the gauge face is left");
+  const double middle = (gauge_v + lowest) / 2;
+  std::vector<Sample1> face;
+  double first = 1e300, last = -1e300;
+  for (const Vector2d& p : placed.points) {
+    if (p.x() * side < 20 || p.y() > gauge_v - 0.5 || p.y() < lowest) continue;
+    face.push_back({p.y() - middle, p.x() * side});
+    first = std::min(first, p.y()), last = std::max(last, p.y());
+  }
+  const auto fit = fit_polynomial(face, 1, 0.005);
+  if (!fit || last - first < kFewestMm) return Estimate::unknown("gauge face not seen");
+  // Two stretches of the face, one at either end, each off by the stretch error.
+  const double stretch = placed.registration.stretch_error_mm * std::sqrt(2.0) / (last - first);
+  const double local = std::hypot(fit->rms * std::sqrt(fit->slope_factor), stretch);
+  const double turn = std::sqrt(placed.registration.covariance(0, 0));
+  return Estimate::known(-std::atan(fit->slope) * kDegrees, std::hypot(local, turn) * kDegrees);
+}
+
+/// A parabola over 10 mm either side: its vertex radius differs from the circle's by (10 / R)^2, 0.1 % at R
+/// 300.
+Estimate crown_radius(const PlacedSection& placed, const HeadTop& top) {
+  constexpr double kHalfWidthMm = 10, kFlattestMm = 5000;
+  if (!top.reason.empty()) return Estimate::unknown(top.reason);
+  std::vector<Sample1> crown;
+  for (const Vector2d& p : placed.points)
+    if (std::abs(p.x()) < kHalfWidthMm && std::abs(p.y() - top.v) < 2) crown.push_back({p.x(), p.y()});
+  const auto fit = fit_polynomial(crown, 2, 0.005);
+  if (!fit || crown.size() < 12) return Estimate::unknown("crown not seen");
+  if (fit->curvature > -1 / kFlattestMm) return Estimate::unknown("crown is flat or hollow");
+  const double radius = -std::pow(1 + fit->slope * fit->slope, 1.5) / fit->curvature;
+  // sigma of the curvature of a parabola through n even samples over +-h: 13.4 s / (h^2 sqrt n)
+  const double curvature_sigma = 13.4 * fit->rms / (kHalfWidthMm * kHalfWidthMm) *
+                                 std::sqrt(placed.registration.correlated_points / fit->num_samples);
+  return Estimate::known(radius, radius * radius * curvature_sigma);
+}
+
+RailMeasurement unknown_rail(const std::string& reason) {
+  RailMeasurement out;
+  for (Estimate* estimate :
+       {&out.vertical_wear, &out.side_wear, &out.corner45_wear, &out.head_width, &out.head_area_loss,
+        &out.gauge_face_angle, &out.inclination, &out.crown_radius, &out.lip})
+    *estimate = Estimate::unknown(reason);
+  return out;
+}
+
+}  // namespace
+
+RailMeasurement measure_rail(const Section& section, const ReferenceShape& reference,
+                             const Registration& registration, const RailOptions& options) {
+  if (!registration.usable()) return unknown_rail(registration.reason);
+  const PlacedSection placed = place(section, reference, registration);
+  const int side = options.gauge_side == GaugeSide::kLeft ? 1 : -1;
+  RailMeasurement out;
+  out.vertical_wear = wear_of(fit_surface(placed, {{0, reference.top_v()}, {0, 1}, -4, 4, 20, 2}),
+                              registration, "top of the head");
+  out.corner45_wear = corner_wear(placed, side);
+  out.head_area_loss = head_area_loss(placed);
+  out.inclination = Estimate::known(-registration.reference_from_section.move.angle_rad * kDegrees,
+                                    std::sqrt(registration.covariance(0, 0)) * kDegrees);
+  out.lip = find_lip(placed, side, options.lip_mm);
+  const HeadTop top = find_head_top(placed);
+  out.crown_radius = crown_radius(placed, top);
+  const bool floating = options.gauge_height == GaugeHeight::kMeasuredTop;
+  if (floating && !top.reason.empty()) {
+    out.side_wear = out.head_width = out.gauge_face_angle = Estimate::unknown(top.reason);
+    return out;
+  }
+  const double gauge_v = (floating ? top.v : reference.top_v()) - options.gauge_point_mm;
+  const SurfaceFit face = fit_face(placed, side, gauge_v);
+  const bool shadowed = !face.known() && out.lip.value.value_or(0) > 0;
+  out.side_wear = wear_of(face, registration, shadowed ? "a lip shadows the gauge point:" : "gauge face");
+  out.head_width = width_of(placed, gauge_v);
+  out.gauge_face_angle = face_angle(placed, side, gauge_v);
+  return out;
+}
+
+}  // namespace lightstripe

@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+// A polynomial through scattered values, robust against those that do not belong.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+namespace lightstripe {
+
+struct Sample1 {
+  double t = 0, value = 0;
+};
+
+struct PolynomialFit {
+  double value = 0, slope = 0, curvature = 0;  ///< at t = 0; curvature = second derivative
+  double value_factor = 0;  ///< variance of value / variance of one sample, independent samples
+  double slope_factor = 0;  ///< the same of the slope
+  double rms = 0;           ///< of the samples that count
+  int num_samples = 0;      ///< that count
+};
+
+/// Least squares with Tukey's biweight (scale from the median residual, at least `min_scale`), degree 0, 1 or
+/// 2. Nothing if fewer than degree + 3 samples count or they do not determine the polynomial.
+std::optional<PolynomialFit> fit_polynomial(const std::vector<Sample1>& samples, int degree,
+                                            double min_scale);
+
+/// The middle value (the upper one of two); `values` must not be empty.
+double median_of(std::vector<double> values);
+
+}  // namespace lightstripe

@@ -1,0 +1,69 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+#include "measure/section.h"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+
+namespace lightstripe {
+namespace {
+
+using Eigen::Vector3d;
+
+/// Every n-th point of all profiles, at most about 2000.
+std::vector<ProfilePoint> thinned(const std::vector<Profile>& profiles) {
+  constexpr std::size_t kMost = 2000;
+  std::size_t total = 0;
+  for (const Profile& profile : profiles) total += profile.points.size();
+  const std::size_t step = total / kMost + 1;
+  std::vector<ProfilePoint> out;
+  std::size_t i = 0;
+  for (const Profile& profile : profiles)
+    for (const ProfilePoint& point : profile.points)
+      if (i++ % step == 0) out.push_back(point);
+  return out;
+}
+
+}  // namespace
+
+Section section_of(const Profile& profile) {
+  Section section;
+  section.reserve(profile.points.size());
+  int chain = -1;
+  const ProfilePoint* last = nullptr;
+  for (const ProfilePoint& point : profile.points) {
+    if (!last || last->sensor != point.sensor || last->line != point.line) ++chain;
+    section.push_back({{point.u, point.v}, chain, point.sensor});
+    last = &point;
+  }
+  return section;
+}
+
+bool sections_are_radial(const std::vector<Profile>& profiles) {
+  constexpr double kRoundingMm = 1e-3;  // profiles.csv has five decimals
+  const std::vector<ProfilePoint> points = thinned(profiles);
+  if (points.size() < 8) return false;
+  double from_axes = 0;  // of the rig frame: a linear motion's u, v are y, z
+  for (const ProfilePoint& point : points)
+    from_axes =
+        std::max({from_axes, std::abs(point.u - point.position.y()), std::abs(point.v - point.position.z())});
+  if (from_axes < kRoundingMm) return false;
+  const auto n = static_cast<Eigen::Index>(points.size());
+  Eigen::MatrixXd A(n, 4);
+  Eigen::VectorXd u(n), squares(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const ProfilePoint& point = points[static_cast<std::size_t>(i)];
+    A.row(i) << point.position.transpose(), 1;
+    u(i) = point.u;
+    squares(i) = point.position.squaredNorm() - point.v * point.v - point.u * point.u;
+  }
+  // u = d.p - c along the axis direction d; with q = p - a off the axis, |p|^2 - v^2 - u^2 is linear in p.
+  const auto solver = A.completeOrthogonalDecomposition();
+  const Eigen::VectorXd along = solver.solve(u), off = solver.solve(squares);
+  const double scale = std::sqrt(A.leftCols<3>().rowwise().squaredNorm().maxCoeff());
+  return std::abs(along.head<3>().norm() - 1) < 1e-3 && (A * along - u).cwiseAbs().maxCoeff() < kRoundingMm &&
+         (A * off - squares).cwiseAbs().maxCoeff() < kRoundingMm * 4 * scale;
+}
+
+}  // namespace lightstripe

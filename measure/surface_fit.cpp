@@ -1,0 +1,97 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+#include "measure/surface_fit.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "measure/robust_line.h"
+
+namespace lightstripe {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+constexpr double kFloorMm = 0.002;  // robust scale: below what any scan scatters by
+
+Vector3d registration_jacobian(const SurfaceFit& fit) {
+  const Vector2d &p = fit.place, &w = fit.response;
+  return {p.x() * w.y() - p.y() * w.x(), w.x(), w.y()};
+}
+
+/// Why the samples do not cover the probe; empty if they do.
+std::string hole_in(std::vector<Sample1> samples, const SurfaceProbe& probe) {
+  constexpr std::size_t kFewest = 6;
+  if (samples.size() < kFewest) return samples.empty() ? "not seen" : "too few points";
+  std::sort(samples.begin(), samples.end(), [](const Sample1& a, const Sample1& b) { return a.t < b.t; });
+  if (samples.front().t > 0 || samples.back().t < 0) return "seen on one side only";
+  const double widest = (probe.to_mm - probe.from_mm) / 2;
+  double last = probe.from_mm;
+  for (const Sample1& s : samples) {
+    if (s.t - last > widest) return "hole in the section";
+    last = s.t;
+  }
+  return probe.to_mm - last > widest ? "hole in the section" : "";
+}
+
+}  // namespace
+
+PlacedSection place(const Section& section, const ReferenceShape& reference,
+                    const Registration& registration) {
+  PlacedSection out{section, reference, registration, {}};
+  out.points.reserve(section.size());
+  for (const SectionPoint& point : section)
+    out.points.push_back(registration.reference_from_section * point.position);
+  return out;
+}
+
+SurfaceFit fit_surface(const PlacedSection& placed, const SurfaceProbe& probe) {
+  constexpr double kDerivativeMm = 0.05, kMostWearMm = 20;
+  SurfaceFit out;
+  const Vector2d left(-probe.outwards.y(), probe.outwards.x());
+  std::vector<Sample1> differences;
+  for (const Vector2d& p : placed.points) {
+    const Vector2d from_origin = p - probe.origin;
+    const double across = from_origin.dot(left), along = from_origin.dot(probe.outwards);
+    if (across < probe.from_mm || across > probe.to_mm || std::abs(along) > probe.reach_mm) continue;
+    const auto surface = placed.reference.surface_along(probe.origin, probe.outwards, across);
+    if (surface && std::abs(*surface - along) < kMostWearMm)
+      differences.push_back({across, *surface - along});
+  }
+  out.reason = hole_in(differences, probe);
+  const auto here = placed.reference.surface_along(probe.origin, probe.outwards, 0);
+  const auto after = placed.reference.surface_along(probe.origin, probe.outwards, kDerivativeMm);
+  const auto before = placed.reference.surface_along(probe.origin, probe.outwards, -kDerivativeMm);
+  if (!here || !after || !before) out.reason = "the reference has no surface there";
+  if (!out.known()) return out;
+  const auto fit = fit_polynomial(differences, probe.degree, kFloorMm);
+  if (!fit) {
+    out.reason = "points do not agree";
+    return out;
+  }
+  out.wear_mm = fit->value;
+  out.along_mm = *here - fit->value;
+  out.slope = (*after - *before) / (2 * kDerivativeMm) - fit->slope;
+  out.rms_mm = fit->rms;
+  out.num_points = fit->num_samples;
+  out.local_sigma_mm =
+      std::hypot(fit->rms * std::sqrt(fit->value_factor), placed.registration.stretch_error_mm);
+  out.place = probe.origin + out.along_mm * probe.outwards;
+  out.response = probe.outwards - out.slope * left;
+  return out;
+}
+
+double sigma_of(const SurfaceFit& fit, const Registration& registration) {
+  const Vector3d J = registration_jacobian(fit);
+  return std::sqrt(fit.local_sigma_mm * fit.local_sigma_mm +
+                   std::max(0.0, J.dot(registration.covariance * J)));
+}
+
+double sigma_of_sum(const SurfaceFit& a, const SurfaceFit& b, const Registration& registration) {
+  const Vector3d J = registration_jacobian(a) + registration_jacobian(b);
+  return std::sqrt(a.local_sigma_mm * a.local_sigma_mm + b.local_sigma_mm * b.local_sigma_mm +
+                   std::max(0.0, J.dot(registration.covariance * J)));
+}
+
+}  // namespace lightstripe

@@ -1,0 +1,160 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+#include "io/frame_numbers.h"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <iterator>
+#include <limits>
+#include <numeric>
+#include <optional>
+
+#include "core/error.h"
+#include "io/number_text.h"
+
+namespace lightstripe {
+namespace {
+
+using Numbers = std::vector<std::int64_t>;
+
+constexpr const char* kDigits = "0123456789";
+constexpr std::int64_t kSparse = 2;  // frames a picture; beyond, the numbers are no running numbers
+
+/// A name around its last run of digits, the extension left out.
+struct NameParts {
+  std::string_view before, behind;
+  std::optional<std::int64_t> number;
+};
+
+NameParts parts_of(std::string_view name) {
+  const std::string_view stem = name.substr(0, name.rfind('.'));
+  const std::size_t last = stem.find_last_of(kDigits);
+  if (last == std::string_view::npos) return {};
+  const std::size_t before = stem.find_last_not_of(kDigits, last);
+  const std::size_t first = before == std::string_view::npos ? 0 : before + 1;
+  return {stem.substr(0, first), stem.substr(last + 1), parse_integer(stem.substr(first, last + 1 - first))};
+}
+
+/// The numbers of each source's pictures; nothing where one of the sources has none.
+std::optional<std::vector<Numbers>> all_numbers(std::span<const FrameSource* const> sources) {
+  std::vector<Numbers> numbers(sources.size());
+  for (std::size_t s = 0; s < sources.size(); ++s)
+    for (std::int64_t i = 0; sources[s] != nullptr && i < sources[s]->size(); ++i) {
+      const auto number = sources[s]->number(i);
+      if (!number) return std::nullopt;
+      numbers[s].push_back(*number);
+    }
+  return numbers;
+}
+
+/// Frames from running numbers: (number - base) / step.
+struct Numbering {
+  std::int64_t base = 0, step = 1;
+};
+
+/// Counted from the lowest number in steps of the largest common one; nothing where that leaves most frames
+/// empty.
+std::optional<Numbering> from_lowest(const std::vector<Numbers>& numbers) {
+  std::int64_t low = std::numeric_limits<std::int64_t>::max(), high = 0, most = 0, step = 0;
+  for (const Numbers& of_source : numbers) {
+    most = std::max(most, static_cast<std::int64_t>(of_source.size()));
+    for (const std::int64_t n : of_source) {
+      low = std::min(low, n);
+      high = std::max(high, n);
+    }
+  }
+  for (const Numbers& of_source : numbers)
+    for (const std::int64_t n : of_source) step = std::gcd(step, n - low);
+  step = std::max<std::int64_t>(step, 1);
+  if ((high - low) / step + 1 > kSparse * most) return std::nullopt;
+  return Numbering{low, step};
+}
+
+/// How many frames have a picture and no position, or a position and no picture. Both sorted.
+std::size_t misfit(const std::vector<Numbers>& numbers, const Numbering& numbering,
+                   const Numbers& positions) {
+  Numbers frames;
+  for (const Numbers& of_source : numbers)
+    for (const std::int64_t n : of_source) frames.push_back((n - numbering.base) / numbering.step);
+  std::sort(frames.begin(), frames.end());
+  frames.erase(std::unique(frames.begin(), frames.end()), frames.end());
+  Numbers apart;
+  std::set_symmetric_difference(frames.begin(), frames.end(), positions.begin(), positions.end(),
+                                std::back_inserter(apart));
+  return apart.size();
+}
+
+std::optional<Numbering> choose_numbering(const std::vector<Numbers>& numbers, const Numbers& positions) {
+  const auto counted = from_lowest(numbers);
+  if (!counted || positions.empty()) return counted;
+  const Numbering as_they_stand;
+  return misfit(numbers, as_they_stand, positions) <= misfit(numbers, *counted, positions) ? as_they_stand
+                                                                                           : *counted;
+}
+
+FrameMap by_number(std::span<const FrameSource* const> sources, const std::vector<Numbers>& numbers,
+                   const Numbering& numbering) {
+  FrameMap map;
+  map.first = std::numeric_limits<std::int64_t>::max();
+  for (const Numbers& of_source : numbers)
+    for (const std::int64_t n : of_source) {
+      const std::int64_t frame = (n - numbering.base) / numbering.step;
+      map.first = std::min(map.first, frame);
+      map.end = std::max(map.end, frame + 1);
+    }
+  map.index.assign(numbers.size(),
+                   std::vector<std::int32_t>(static_cast<std::size_t>(map.end - map.first), -1));
+  for (std::size_t s = 0; s < numbers.size(); ++s)
+    for (std::size_t i = 0; i < numbers[s].size(); ++i) {
+      const std::int64_t frame = (numbers[s][i] - numbering.base) / numbering.step;
+      std::int32_t& index = map.index[s][static_cast<std::size_t>(frame - map.first)];
+      if (index >= 0)
+        map.doubles.push_back(sources[s]->name(static_cast<std::int64_t>(i)));
+      else
+        index = static_cast<std::int32_t>(i);
+    }
+  return map;
+}
+
+FrameMap by_order(std::span<const FrameSource* const> sources, const std::string& subject) {
+  FrameMap map;
+  for (const FrameSource* source : sources) {
+    if (source == nullptr) continue;
+    if (map.end != 0 && source->size() != map.end)
+      throw Error(subject, fmt::format("one sensor has {} frames, another {}", map.end, source->size()),
+                  "give every sensor the same frames, so that the n-th of each belong together, or number "
+                  "the files through");
+    map.end = source->size();
+  }
+  map.index.resize(sources.size());
+  for (std::size_t s = 0; s < sources.size(); ++s) {
+    map.index[s].assign(static_cast<std::size_t>(map.end), -1);
+    if (sources[s] != nullptr) std::iota(map.index[s].begin(), map.index[s].end(), 0);
+  }
+  return map;
+}
+
+}  // namespace
+
+std::vector<std::int64_t> numbers_in_names(const std::vector<std::string>& names) {
+  Numbers numbers;
+  numbers.reserve(names.size());
+  if (names.empty()) return numbers;
+  const NameParts first = parts_of(names.front());
+  for (const std::string& name : names) {
+    const NameParts parts = parts_of(name);
+    if (!parts.number || parts.before != first.before || parts.behind != first.behind) return {};
+    numbers.push_back(*parts.number);
+  }
+  return numbers;
+}
+
+FrameMap map_frames(std::span<const FrameSource* const> sources, const std::vector<std::int64_t>& positions,
+                    const std::string& subject) {
+  if (const auto numbers = all_numbers(sources))
+    if (const auto numbering = choose_numbering(*numbers, positions))
+      return by_number(sources, *numbers, *numbering);
+  return by_order(sources, subject);
+}
+
+}  // namespace lightstripe

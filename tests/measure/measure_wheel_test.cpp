@@ -1,0 +1,82 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+#include "measure/measure_wheel.h"
+
+#include <gmock/gmock.h>
+
+#include "io/nominal_outlines.h"
+#include "sections.h"
+
+namespace lightstripe {
+namespace {
+
+using ::testing::HasSubstr;
+
+class MeasureWheel : public ::testing::Test {
+ protected:
+  const Outline nominal = read_nominal("S1002");
+  const ReferenceShape reference{"S1002", ObjectKind::kWheel, nominal};
+
+  WheelMeasurement measured(const Section& section, const WheelSectionKind& kind = {}) const {
+    const SectionPrior prior{.may_mirror = true, .may_be_upside_down = !kind.radial, .upright = kind.radial};
+    return measure_wheel(section, reference, register_section(section, reference, prior), kind);
+  }
+};
+
+double value(const Estimate& estimate) {
+  EXPECT_TRUE(estimate.value) << estimate.reason;
+  return estimate.value.value_or(-999);
+}
+
+// The standard's figures of a new wheel. 0.002: parabolas on arcs, spacing 0.3 mm.
+TEST_F(MeasureWheel, ANewWheelHasTheStandardsFigures) {
+  for (const bool mirrored : {false, true}) {
+    const WheelMeasurement wheel =
+        measured(wheel_section(nominal, -30, {.turn_deg = 1, .shift = {300, 10}}, mirrored));
+    EXPECT_NEAR(value(wheel.flange_height), 28.000, 0.003);
+    EXPECT_NEAR(value(wheel.flange_thickness), 32.500, 0.005);
+    EXPECT_NEAR(value(wheel.qr), 10.794, 0.01);
+    EXPECT_NEAR(value(wheel.tread_wear), 0, 0.003);
+    EXPECT_NEAR(value(wheel.hollow), 0, 0.01);
+    EXPECT_NEAR(value(wheel.rim_width), 135, 0.005);
+    EXPECT_FALSE(wheel.diameter.value);
+    EXPECT_THAT(wheel.diameter.reason, HasSubstr("not a rotary scan"));
+  }
+}
+
+TEST_F(MeasureWheel, ARotaryScanKnowsTheDiameter) {
+  WheelSectionKind kind{.radial = true, .axis_sigma_mm = 0.2};
+  const WheelMeasurement wheel = measured(wheel_section(nominal, -30, {.shift = {20, 460}}, true), kind);
+  EXPECT_NEAR(value(wheel.diameter), 920, 0.005);
+  EXPECT_NEAR(*wheel.diameter.sigma, 0.4, 0.01);
+  EXPECT_NEAR(value(wheel.flange_height), 28.000, 0.003);
+}
+
+// Tread lowered by 2 between u = -20 and 40 (blended by the shape's own points), flange untouched.
+TEST_F(MeasureWheel, AHollowTreadIsFound) {
+  Section section = wheel_section(nominal, -30, {});
+  for (SectionPoint& p : section) {
+    const double t = (p.position.x() - 5) / 30;
+    if (std::abs(t) < 1 && p.position.y() > -10 && p.position.y() < 6) p.position.y() -= 2 * (1 - t * t);
+  }
+  const WheelMeasurement wheel = measured(section);
+  EXPECT_NEAR(value(wheel.flange_height), 28 + 2 * (1 - 25.0 / 900), 0.01);
+  EXPECT_NEAR(value(wheel.tread_wear), 2 * (1 - 25.0 / 900), 0.01);
+  EXPECT_GT(value(wheel.hollow), 0.8);
+  EXPECT_LT(value(wheel.hollow), 1.6);
+}
+
+TEST_F(MeasureWheel, WhatIsNotSeenIsUnknown) {
+  Section no_tip = wheel_section(nominal, -30, {});
+  std::erase_if(no_tip, [](const SectionPoint& p) { return p.position.y() > 25; });
+  const WheelMeasurement without_tip = measured(no_tip);
+  EXPECT_FALSE(without_tip.flange_height.value);
+  EXPECT_FALSE(without_tip.qr.value);
+  Section no_rim = wheel_section(nominal, -2, {});
+  const WheelMeasurement without_rim = measured(no_rim);
+  EXPECT_FALSE(without_rim.rim_width.value);
+  EXPECT_NEAR(value(without_rim.flange_thickness), 32.5, 0.01);
+}
+
+}  // namespace
+}  // namespace lightstripe

@@ -1,0 +1,62 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+// Sections for tests: points of an outline as two sensors above see them, moved, with noise.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <numbers>
+
+#include "core/outline.h"
+#include "core/random.h"
+#include "measure/section.h"
+
+namespace lightstripe {
+
+struct SectionRecipe {
+  double spacing_mm = 0.3;
+  double noise_mm = 0;
+  double turn_deg = 0;
+  Eigen::Vector2d shift = Eigen::Vector2d::Zero();
+  bool right = true, left = true;  ///< what the sensor at +u, at -u sees
+  bool lower_part = true;          ///< below the head
+  std::uint64_t seed = 1;
+};
+
+/// Points of a rail's outline that a sensor up and aside sees: normals that look towards it, and nothing
+/// under the head down to 70 below the top (shadow), as in the simulated rig.
+inline Section rail_section(const Outline& rail, const SectionRecipe& recipe) {
+  Random random(recipe.seed);
+  Section section;
+  for (int sensor = 0; sensor < 2; ++sensor) {
+    if (!(sensor == 0 ? recipe.right : recipe.left)) continue;
+    const Eigen::Vector2d towards = Eigen::Vector2d(sensor == 0 ? 1 : -1, 0.7).normalized();
+    for (const OutlineSample& point : sample(rail, recipe.spacing_mm)) {
+      const Eigen::Vector2d &p = point.position, &n = point.normal;
+      const bool head = p.y() > -38, shadow = !head && p.y() > -70;
+      if (n.dot(towards) < 0.2 || shadow || (!head && !recipe.lower_part)) continue;
+      if (!head && p.x() * towards.x() < 0) continue;
+      const Eigen::Vector2d seen = p + recipe.noise_mm * random.gaussian() * n;
+      const Eigen::Vector2d moved =
+          Eigen::Rotation2Dd(recipe.turn_deg * std::numbers::pi / 180) * seen + recipe.shift;
+      section.push_back({moved, 2 * sensor + (head ? 0 : 1), sensor});
+    }
+  }
+  return section;
+}
+
+/// A wheel's outline above `lowest_v`.
+inline Section wheel_section(const Outline& wheel, double lowest_v, const SectionRecipe& recipe,
+                             bool mirrored = false) {
+  Random random(recipe.seed);
+  Section section;
+  for (const OutlineSample& point : sample(wheel, recipe.spacing_mm)) {
+    if (point.position.y() < lowest_v) continue;
+    Eigen::Vector2d p = point.position + recipe.noise_mm * random.gaussian() * point.normal;
+    if (mirrored) p.x() = -p.x();
+    section.push_back(
+        {Eigen::Rotation2Dd(recipe.turn_deg * std::numbers::pi / 180) * p + recipe.shift, 0, 0});
+  }
+  return section;
+}
+
+}  // namespace lightstripe
