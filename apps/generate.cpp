@@ -37,7 +37,8 @@ void add_generate_command(CLI::App& app, Command& run) {
       ->required()
       ->check(CLI::IsMember({"man-page", "bash-completion"}));
   add_common_options(*command, arguments->common, "file (default: standard output)");
-  command->callback([arguments, &app, &run] { run = [arguments, &app] { return run_generate(*arguments, app); }; });
+  command->callback(
+      [arguments, &app, &run] { run = [arguments, &app] { return run_generate(*arguments, app); }; });
 }
 
 }  // namespace lightstripe

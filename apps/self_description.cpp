@@ -99,11 +99,12 @@ std::string man_page(const CLI::App& app, const std::string& version) {
   std::string page = fmt::format(
       ".TH LIGHTSTRIPE 1 \"\" \"{0} {1}\" \"User Commands\"\n.SH NAME\n{0} \\- {2}\n"
       ".SH SYNOPSIS\n.B {0}\n\\fICOMMAND\\fR [\\fIOPTION\\fR]... [\\fIFILE\\fR]...\n.SH OPTIONS\n{3}",
-      roff(app.get_name()), roff(version), roff(app.get_description().substr(app.get_description().find(": ") + 2)),
-      options_page(app));
+      roff(app.get_name()), roff(version),
+      roff(app.get_description().substr(app.get_description().find(": ") + 2)), options_page(app));
   page += ".SH COMMANDS\n";
   for (const CLI::App* command : commands_of(app))
-    page += fmt::format(".SS {}\n{}\n{}", roff(command->get_name()), roff(command->get_description()), options_page(*command));
+    page += fmt::format(".SS {}\n{}\n{}", roff(command->get_name()), roff(command->get_description()),
+                        options_page(*command));
   return page + kExitStatus;
 }
 

@@ -6,10 +6,18 @@ add_library(lightstripe_flags INTERFACE)
 # -Wrestrict raises false alarms in std::string of g++ 12 (gcc bug 105651).
 target_compile_options(lightstripe_flags INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror
                                                    $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)
+set(instruments_address -fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
+set(instruments_thread -fsanitize=thread -fno-omit-frame-pointer)
+set(instruments_coverage --coverage -fprofile-update=atomic)
 if(LIGHTSTRIPE_SANITIZE)
-  target_compile_options(lightstripe_flags INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=undefined
-                                                     -fno-omit-frame-pointer)
-  target_link_options(lightstripe_flags INTERFACE -fsanitize=address,undefined)
+  if(NOT DEFINED instruments_${LIGHTSTRIPE_SANITIZE})
+    message(FATAL_ERROR "LIGHTSTRIPE_SANITIZE is '${LIGHTSTRIPE_SANITIZE}'; use address, thread, coverage or nothing")
+  endif()
+  target_compile_options(lightstripe_flags INTERFACE ${instruments_${LIGHTSTRIPE_SANITIZE}})
+  target_link_options(lightstripe_flags INTERFACE ${instruments_${LIGHTSTRIPE_SANITIZE}})
+endif()
+if(LIGHTSTRIPE_FUZZ)
+  target_compile_options(lightstripe_flags INTERFACE -fsanitize=fuzzer-no-link)
 endif()
 
 # lightstripe_library(<folder's name> DEPS <folders it may include> EXTERNAL <libraries of others>)

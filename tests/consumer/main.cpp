@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The lightstripe authors
 // SPDX-License-Identifier: Apache-2.0
-// Uses every part of an installed lightstripe, so that a library or a header that is missing there is noticed.
+// Uses every part of an installed lightstripe, so that a library or a header that is missing there is
+// noticed.
 #include <cstdio>
 
 #include "calib/calibrate_rig.h"

@@ -1,0 +1,157 @@
+# SPDX-FileCopyrightText: 2026 The lightstripe authors
+# SPDX-License-Identifier: Apache-2.0
+"""The Python module gives what the command line gives, and looks at memory instead of copying it."""
+import csv
+import gc
+import os
+import pathlib
+import subprocess
+import threading
+
+import numpy as np
+import pytest
+
+import lightstripe
+
+SOURCE = pathlib.Path(os.environ["LIGHTSTRIPE_SOURCE_DIR"])
+
+
+def run(*arguments):
+    subprocess.run([os.environ["LIGHTSTRIPE_BINARY"], *map(str, arguments)], check=True, capture_output=True)
+
+
+@pytest.fixture(scope="module")
+def scan(tmp_path_factory):
+    """A small rendered scan with its true rig, and what the command line makes of it."""
+    folder = tmp_path_factory.mktemp("scan with blanks")
+    run("simulate", SOURCE / "testdata/one_sensor.yaml", "-o", folder)
+    run("reconstruct", folder / "scan.yaml", "--rig", folder / "truth/rig.yaml", "-o", folder / "cloud.ply", "--profiles",
+        folder / "profiles.csv")
+    return folder
+
+
+def stripe_image(dtype=np.uint8, row=60.25):
+    rows = np.arange(120)[:, None]
+    image = 20 + 180 * np.exp(-((rows - row) ** 2) / 6.0) + np.zeros((1, 160))
+    return image.astype(dtype) if dtype == np.uint8 else (image * 200).astype(dtype)
+
+
+def test_version_is_that_of_the_program():
+    out = subprocess.run([os.environ["LIGHTSTRIPE_BINARY"], "--version"], capture_output=True, text=True, check=True).stdout
+    assert lightstripe.__version__ == out.strip()
+
+
+@pytest.mark.parametrize("dtype", [np.uint8, np.uint16])
+@pytest.mark.parametrize("method", ["direction-guided", "steger"])
+def test_extract_finds_the_drawn_line(dtype, method):
+    extraction = lightstripe.extract(stripe_image(dtype), stripe_width=6, method=method)
+    assert len(extraction.stripes) == 1
+    points = extraction.stripes[0]
+    assert len(points) > 140
+    # A noise-free straight line: what is left is the rounding to whole grey levels.
+    assert np.abs(points["y"] - 60.25).max() < 0.02
+    assert np.allclose(np.abs(points["normal_y"]), 1, atol=1e-3)
+
+
+def test_a_crop_is_not_copied_and_gives_the_same_line():
+    image = stripe_image()
+    crop = image[20:100, 30:130]
+    assert not crop.flags["C_CONTIGUOUS"]
+    points = lightstripe.extract(crop, stripe_width=6).stripes[0]
+    assert np.abs(points["y"] - 40.25).max() < 0.02
+
+
+def test_stripes_look_at_the_extractions_memory_and_keep_it_alive():
+    extraction = lightstripe.extract(stripe_image(), stripe_width=6)
+    first, second = extraction.stripes[0], extraction.stripes[0]
+    assert first.__array_interface__["data"] == second.__array_interface__["data"]
+    assert first.base is extraction
+    before = first.copy()
+    del extraction, second
+    gc.collect()
+    assert np.array_equal(first, before)
+
+
+@pytest.mark.parametrize("image", [np.zeros((4, 5, 3), np.uint8), np.zeros((4, 5), np.float64), np.zeros((40, 50), np.uint8)[:, ::2],
+                                   np.zeros((40, 50), np.uint8)[::-1], np.broadcast_to(np.uint8(1), (9, 9))])
+def test_extract_refuses_other_arrays(image):
+    with pytest.raises(ValueError):
+        lightstripe.extract(image)
+
+
+def test_an_unknown_option_is_named():
+    with pytest.raises(lightstripe.Error, match="strip_width"):
+        lightstripe.extract(stripe_image(), strip_width=6)
+    with pytest.raises(lightstripe.Error, match="lines.min_lenght"):
+        lightstripe.extract(stripe_image(), lines={"min_lenght": 3})
+
+
+def test_an_empty_picture_gives_no_stripe():
+    assert lightstripe.extract(np.zeros((0, 0), np.uint8)).stripes == []
+
+
+def test_threads_extract_at_the_same_time():
+    results = [None] * 4
+
+    def work(index):
+        results[index] = lightstripe.extract(stripe_image(), stripe_width=6).stripes[0].copy()
+
+    threads = [threading.Thread(target=work, args=(i,)) for i in range(4)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert all(np.array_equal(results[0], other) for other in results)
+
+
+def test_rig_is_that_of_the_file(scan):
+    rig = lightstripe.read_rig(scan / "truth/rig.yaml")
+    sensor = rig.sensors[0]
+    assert sensor.name == "solo" and sensor.image_size == (480, 350)
+    assert sensor.camera_matrix[0, 0] == pytest.approx(821)
+    normal, offset = sensor.laser_planes[0]
+    assert np.linalg.norm(normal) == pytest.approx(1) and offset > 0
+    assert np.allclose(sensor.rig_from_camera[:3, :3] @ sensor.rig_from_camera[:3, :3].T, np.eye(3))
+    assert rig.to_yaml() == (scan / "truth/rig.yaml").read_text()
+
+
+def test_reconstruction_equals_that_of_the_command_line(scan):
+    rig = lightstripe.read_rig(scan / "truth/rig.yaml")
+    with open(scan / "scan/travel.csv", newline="") as table:
+        travel = [float(row["travel_mm"]) for row in csv.DictReader(table)]
+    profiles = []
+    for frame, file in enumerate(sorted((scan / "scan/solo").glob("*.png"))):
+        extraction = lightstripe.extract(lightstripe.read_image(file))
+        profiles.append(lightstripe.triangulate([extraction], rig, travel=travel[frame], frame=frame))
+    lightstripe.write_profiles(scan / "python.csv", profiles)
+    assert (scan / "python.csv").read_bytes() == (scan / "profiles.csv").read_bytes()
+
+
+def test_profiles_are_read_back(scan):
+    profiles = lightstripe.read_profiles(scan / "profiles.csv")
+    assert [profile.frame for profile in profiles] == list(range(6))
+    table = np.genfromtxt(scan / "profiles.csv", delimiter=",", names=True)
+    points = np.concatenate([profile.points for profile in profiles])
+    for column in ("x", "y", "z", "u", "v", "sigma"):
+        assert np.array_equal(points[column], table[column])
+    assert profiles[0].points.base is profiles[0]
+
+
+def test_own_stripes_and_profiles_can_be_handed_over(scan):
+    rig = lightstripe.read_rig(scan / "truth/rig.yaml")
+    points = lightstripe.extract(lightstripe.read_image(scan / "scan/solo/0003.png")).stripes[0]
+    half = points[: len(points) // 2]
+    profile = lightstripe.triangulate([lightstripe.Extraction([half])], rig)
+    assert len(profile.points) + profile.num_missed == len(half)
+    again = lightstripe.Profile(profile.points[::2], travel=3.0, frame=7)
+    assert again.frame == 7 and np.array_equal(again.points, profile.points[::2])
+    with pytest.raises(ValueError):
+        lightstripe.Extraction([np.zeros(3)])
+    with pytest.raises(ValueError):
+        lightstripe.triangulate([], rig)
+
+
+def test_a_missing_file_is_an_error_with_its_name(tmp_path):
+    for read in (lightstripe.read_rig, lightstripe.read_profiles, lightstripe.read_image):
+        with pytest.raises(lightstripe.Error, match="nothing-here"):
+            read(tmp_path / "nothing-here")
