@@ -63,9 +63,10 @@ Estimate face_angle(const PlacedSection& placed, int side, double gauge_v) {
   const double middle = (gauge_v + lowest) / 2;
   std::vector<Sample1> face;
   double first = 1e300, last = -1e300;
-  for (const Vector2d& p : placed.points) {
+  for (std::size_t i = 0; i < placed.points.size(); ++i) {
+    const Vector2d& p = placed.points[i];
     if (p.x() * side < 20 || p.y() > gauge_v - 0.5 || p.y() < lowest) continue;
-    face.push_back({p.y() - middle, p.x() * side});
+    face.push_back({p.y() - middle, p.x() * side, placed.section[i].weight});
     first = std::min(first, p.y()), last = std::max(last, p.y());
   }
   const auto fit = fit_polynomial(face, 1, 0.005);
@@ -83,8 +84,11 @@ Estimate crown_radius(const PlacedSection& placed, const HeadTop& top) {
   constexpr double kHalfWidthMm = 10, kFlattestMm = 5000;
   if (!top.reason.empty()) return Estimate::unknown(top.reason);
   std::vector<Sample1> crown;
-  for (const Vector2d& p : placed.points)
-    if (std::abs(p.x()) < kHalfWidthMm && std::abs(p.y() - top.v) < 2) crown.push_back({p.x(), p.y()});
+  for (std::size_t i = 0; i < placed.points.size(); ++i) {
+    const Vector2d& p = placed.points[i];
+    if (std::abs(p.x()) < kHalfWidthMm && std::abs(p.y() - top.v) < 2)
+      crown.push_back({p.x(), p.y(), placed.section[i].weight});
+  }
   const auto fit = fit_polynomial(crown, 2, 0.005);
   if (!fit || crown.size() < 12) return Estimate::unknown("crown not seen");
   if (fit->curvature > -1 / kFlattestMm) return Estimate::unknown("crown is flat or hollow");
