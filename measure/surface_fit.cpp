@@ -25,7 +25,7 @@ std::string hole_in(std::vector<Sample1> samples, const SurfaceProbe& probe) {
   constexpr std::size_t kFewest = 6;
   if (samples.size() < kFewest) return samples.empty() ? "not seen" : "too few points";
   std::sort(samples.begin(), samples.end(), [](const Sample1& a, const Sample1& b) { return a.t < b.t; });
-  if (samples.front().t > 0 || samples.back().t < 0) return "seen on one side only";
+  if (!probe.carried && (samples.front().t > 0 || samples.back().t < 0)) return "seen on one side only";
   const double widest = (probe.to_mm - probe.from_mm) / 2;
   double last = probe.from_mm;
   for (const Sample1& s : samples) {
