@@ -176,9 +176,9 @@ std::string section_strip(const MeasureReport& report, const std::vector<std::si
   for (const std::size_t i : shown) {
     const MeasuredFrame& row = report.rows[i];
     const SectionDrawing drawing = draw_section(report.profiles[i], row, report.reference);
-    html +=
-        fmt::format("<figure id=\"f{0}\">{1}<figcaption>frame {0}, travel {2:g}: {3}</figcaption></figure>",
-                    row.frame, section_svg(drawing, kWidthPx), row.travel, escaped(row.status));
+    html += fmt::format(
+        "<figure id=\"f{0}\">{1}<figcaption>frame {0}, travel {2:g}: {3} (x {4:g})</figcaption></figure>",
+        row.frame, section_svg(drawing, kWidthPx), row.travel, escaped(row.status), drawing.enlarged);
   }
   return html + "</div>";
 }
@@ -205,9 +205,10 @@ std::string measure_report_html(const MeasureReport& report) {
   html += "<h2>Along the track</h2><p>Dots: measured; bars: one predicted sigma; red: limits.</p>";
   for (const std::string& name : quantities(report)) html += track_chart(report, name);
   html +=
-      "<h2>Sections</h2><p>Grey: the reference; black: measured; lines: the difference, drawn ten times as "
-      "large, red where metal "
-      "is gone (more than 0.1 mm), blue where it stands out.</p>";
+      "<h2>Sections</h2><p>Grey: the reference; black: measured; lines on the outline: the difference, "
+      "enlarged as each "
+      "caption says; red where metal is gone (more than 0.1 mm), blue where it stands out, green "
+      "between.</p>";
   html += section_strip(report, order);
   return html + "</body></html>\n";
 }

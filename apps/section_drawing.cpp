@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
@@ -25,10 +26,22 @@ cv::Scalar rgb_of(double difference) {
   return difference < -0.1 ? cv::Scalar(200, 64, 31) : cv::Scalar(74, 154, 74);
 }
 
+/// A round factor that makes nearly all differences at most 12 mm long.
+double enlargement(std::vector<double> sizes) {
+  constexpr double kLongestMm = 12;
+  if (sizes.empty()) return 10;
+  const auto nearly_all =
+      sizes.begin() + static_cast<std::ptrdiff_t>(0.97 * static_cast<double>(sizes.size() - 1));
+  std::nth_element(sizes.begin(), nearly_all, sizes.end());
+  for (const double factor : {50.0, 20.0, 10.0, 5.0, 2.0})
+    if (*nearly_all * factor <= kLongestMm) return factor;
+  return 1;
+}
+
 void frame_view(ObjectKind kind, SectionDrawing& drawing) {
   // A rail whole; of a wheel what a sensor can see of it.
-  drawing.low = kind == ObjectKind::kRail ? Vector2d(-85, -180) : Vector2d(-82, -35);
-  drawing.high = kind == ObjectKind::kRail ? Vector2d(85, 12) : Vector2d(78, 42);
+  drawing.low = kind == ObjectKind::kRail ? Vector2d(-92, -180) : Vector2d(-88, -35);
+  drawing.high = kind == ObjectKind::kRail ? Vector2d(92, 16) : Vector2d(82, 46);
 }
 
 void add_reference(const ReferenceShape& reference, SectionDrawing& drawing) {
@@ -53,14 +66,19 @@ SectionDrawing draw_section(const Profile& profile, const MeasuredFrame& row,
   frame_view(reference.kind(), drawing);
   add_reference(reference, drawing);
   if (row.registration.view == RegistrationView::kNone) return drawing;
+  std::vector<double> sizes;
+  std::vector<PolylineFoot> feet;
   for (const ProfilePoint& point : profile.points) {
     const Vector2d p = row.registration.reference_from_section * Vector2d(point.u, point.v);
     drawing.points.push_back(p);
     if (const auto foot = reference.nearest(p); foot && !foot->beyond_end)
-      drawing.whiskers.push_back({foot->position,
-                                  foot->position + drawing.enlarged * foot->signed_distance * foot->normal,
-                                  foot->signed_distance});
+      feet.push_back(*foot), sizes.push_back(std::abs(foot->signed_distance));
   }
+  drawing.enlarged = enlargement(std::move(sizes));
+  for (const PolylineFoot& foot : feet)  // always outwards, where nothing else is drawn
+    drawing.whiskers.push_back(
+        {foot.position, foot.position + drawing.enlarged * std::abs(foot.signed_distance) * foot.normal,
+         foot.signed_distance});
   return drawing;
 }
 

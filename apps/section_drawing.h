@@ -16,7 +16,7 @@ struct SectionDrawing {
   std::vector<std::vector<Eigen::Vector2d>> reference;  ///< polylines, mm
   std::vector<Eigen::Vector2d> points;                  ///< measured, on the reference
   struct Whisker {
-    Eigen::Vector2d foot, end;  ///< from the reference, the difference enlarged
+    Eigen::Vector2d foot, end;  ///< from the reference outwards, the difference enlarged
     double difference = 0;      ///< mm, + outside
   };
   std::vector<Whisker> whiskers;

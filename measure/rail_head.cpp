@@ -150,7 +150,7 @@ Estimate find_lip(const PlacedSection& placed, int side, double lip_mm) {
     const auto foot = reference.nearest(p);
     if (foot && foot->signed_distance > lip_mm) out_of_face.push_back(foot->signed_distance);
   }
-  if (static_cast<double>(out_of_face.size()) < kFewest) return Estimate::known(0, lip_mm / 2);
+  if (static_cast<double>(out_of_face.size()) < kFewest) return {0.0, std::nullopt, ""};
   std::sort(out_of_face.begin(), out_of_face.end());
   return Estimate::known(out_of_face[out_of_face.size() - 2],
                          placed.registration.rms_mm);  // not the one farthest

@@ -177,7 +177,7 @@ double fitting_share(const Fit& fit, ObjectKind kind) {
 
 std::string judged(const Fit& fit, const Registration& out, const ReferenceShape& reference,
                    const RegistrationOptions& options) {
-  if (out.view == RegistrationView::kHeadOnly)
+  if (out.view == RegistrationView::kHeadOnly && !options.on_head)
     return "head only: without web or foot the unworn rail's place is not known";
   if (out.num_points < options.min_fit_points)
     return fmt::format("only {} points on parts that do not wear, {} needed", out.num_points,
@@ -186,7 +186,7 @@ std::string judged(const Fit& fit, const Registration& out, const ReferenceShape
     return fmt::format("fit to {} is {:.2f} mm rms, limit {:.2f}", reference.name(), out.rms_mm,
                        options.max_fit_rms_mm);
   const double share = fitting_share(fit, reference.kind());
-  if (share < options.min_fit_share)
+  if (out.view != RegistrationView::kHeadOnly && share < options.min_fit_share)
     return fmt::format("only {:.0f} % of the unworn parts fit {}", 100 * share, reference.name());
   const Vector2d top(reference.top_u(), reference.top_v());
   const double sigma = std::max(out.sigma_of(top, {1, 0}), out.sigma_of(top, {0, 1}));
