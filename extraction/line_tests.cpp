@@ -218,6 +218,8 @@ bool is_bright_enough(const Trial& t, const LineFacts& line, const Reference& re
   if (line.intensity < visible || line.mean_strength < 5 * strength_noise || share < t.options.min_contrast)
     return false;
   if (share > t.options.clear_contrast) return true;
+  // The weaker, the longer: dim edges are short.
+  if (line.length * share < t.options.clear_contrast * t.options.min_length * t.full_width) return false;
   const double ratio = line.width / reference.width;
   // Bridges and uneven flanks are rare on a stripe, frequent on stains and edges.
   return line.odd_share < 0.2 && ratio > 0.65 && ratio < 1.5;
