@@ -263,5 +263,26 @@ TEST(Channel, AnExcessOfAGreyPictureIsAnError) {
   EXPECT_NO_THROW(read_image(file, Channel::kRed));
 }
 
+TEST(Channel, OverexposedLineWhoseExcessIsHollowIsReadAsGrey) {
+  // A halo of pure clipped red, 20 px wide, and a core of 4 px where green and blue catch up.
+  const TempFolder folder;
+  const auto picture = [&](int core) {
+    std::vector<std::uint8_t> rgb(120 * 80 * 3, 30);
+    for (std::size_t y = 0; y < 80; ++y)
+      for (std::size_t x = 50; x < 70; ++x) {
+        const bool inside = x >= 58 && x < 62;
+        std::uint8_t* pixel = &rgb[(y * 120 + x) * 3];
+        pixel[0] = 255;
+        pixel[1] = pixel[2] = static_cast<std::uint8_t>(inside ? core : 0);
+      }
+    write_rgb_image(folder / "line.png", rgb, 120, 80);
+    Channel chosen = Channel::kAuto;
+    read_image(folder / "line.png", Channel::kAuto, &chosen);
+    return chosen;
+  };
+  EXPECT_EQ(picture(230), Channel::kGray);
+  EXPECT_EQ(picture(20), Channel::kRedExcess);
+}
+
 }  // namespace
 }  // namespace lightstripe
