@@ -42,6 +42,36 @@ bool same_pixels(const Image8& image, const cv::Mat& grey) {
   return true;
 }
 
+// OpenCV's decoder as the oracle, over sizes, filters and both depths.
+TEST(ReadImage, PlainGreyPngIsDecodedAsByOpenCv) {
+  const TempFolder folder;
+  int kinds = 0;
+  for (const int type : {CV_8UC1, CV_16UC1})
+    for (const int width : {1, 2, 7, 64, 301})
+      for (const int strategy : {cv::IMWRITE_PNG_STRATEGY_DEFAULT, cv::IMWRITE_PNG_STRATEGY_FILTERED,
+                                 cv::IMWRITE_PNG_STRATEGY_RLE})
+        for (const int level : {0, 1, 9}) {
+          cv::Mat picture = noise(width, 23, type, 3);
+          cv::blur(picture, picture, {3, 3});  // so that the encoder has reason to filter
+          const std::string bytes = encoded(
+              ".png", picture, {cv::IMWRITE_PNG_COMPRESSION, level, cv::IMWRITE_PNG_STRATEGY, strategy});
+          const GreyImage found = read_grey_image(folder.write("a.png", bytes), Channel::kAuto);
+          ++kinds;
+          if (type == CV_8UC1) {
+            const cv::Mat expected = picture.reshape(1, 1);
+            EXPECT_EQ(
+                std::get<Image8>(found).pixels,
+                std::vector<std::uint8_t>(expected.begin<std::uint8_t>(), expected.end<std::uint8_t>()));
+          } else {
+            const cv::Mat expected = picture.reshape(1, 1);
+            EXPECT_EQ(
+                std::get<Image16>(found).pixels,
+                std::vector<std::uint16_t>(expected.begin<std::uint16_t>(), expected.end<std::uint16_t>()));
+          }
+        }
+  EXPECT_EQ(kinds, 90);
+}
+
 TEST(ReadImage, GivesTheGreyValuesOfLosslessFormats) {
   const TempFolder folder;
   const cv::Mat grey = noise(37, 21, CV_8UC1, 1);
