@@ -89,7 +89,7 @@ void write_plot(const std::vector<Level>& levels, const char* path) {
   for (int k = 0; k <= 5; ++k) svg << text(22, 364 - 60 * k, "0." + std::to_string(5 * k + 100).substr(1));
   svg << text(200, 402, "noise, share of full scale") << text(66, 32, "rms error of the centre, px");
   svg << polyline(levels, &Level::plain, "#c33") << polyline(levels, &Level::smooth, "#26c");
-  svg << text(470, 110, "direction-guided", "#c33") << text(470, 290, "with smoothing along the line", "#26c")
+  svg << text(400, 70, "direction-guided", "#c33") << text(400, 290, "with smoothing along the line", "#26c")
       << "</svg>\n";
 }
 
