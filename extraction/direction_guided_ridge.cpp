@@ -74,8 +74,10 @@ std::optional<RidgePlace> RidgeFinder<T>::find(const RidgeSearch& search) const 
         evaluate_derivatives(image, px, py, kernels, search.direction.x, search.direction.y, border_window);
     const auto ridge = ridge_at(d, search, limits.strength_noise);
     if (!ridge) return std::nullopt;
+    // The stripe's own grey level, undone what smoothing at its scale takes from a Gaussian's top.
+    const double level = d.value - 0.828 * kernels.sigma * kernels.sigma * ridge->curvature;
     const double least =
-        std::max(search.least_strength, d.value < limits.level_low ? limits.shaded_strength : 0.0);
+        std::max(search.least_strength, level < limits.level_low ? limits.shaded_strength : 0.0);
     if (-ridge->curvature < least) return std::nullopt;
     const double t = ridge_offset(d, ridge->normal_x, ridge->normal_y, ridge->curvature);
     // The ridge is met again in this column (or row): points stay evenly spaced.

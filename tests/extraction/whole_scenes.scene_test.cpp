@@ -21,7 +21,7 @@ TEST(WholeScenes, PapersFourKindsAreCompleteWithoutFalseLines) {
     EXPECT_EQ(r.stripes.size(), lines[kind]) << "kind " << kind;
     EXPECT_GE(s.completeness, 0.99) << "kind " << kind;
     EXPECT_EQ(s.false_points, 0) << "kind " << kind;
-    EXPECT_LE(s.rms_px, 0.035) << "kind " << kind;
+    EXPECT_LE(s.rms_px, 0.03) << "kind " << kind;
   }
 }
 
