@@ -131,24 +131,21 @@ Estimate hollow_of(const PlacedSection& placed) {
   double depth = 0;
   for (const Sample1& s : strips)
     if (s.t < high->t) depth = std::max(depth, high->value - s.value);
-  const double noise = std::max(placed.registration.rms_mm, kMinScaleMm);
-  return Estimate::known(depth, noise * std::sqrt(2.0));
+  const double error = std::max(placed.registration.stretch_error_mm, kMinScaleMm);
+  return Estimate::known(depth, error * std::sqrt(2.0));
 }
 
 Estimate rim_width(const PlacedSection& placed, const Place& back) {
-  constexpr double kNarrowestU = 55, kWidestU = 80, kBelowChamferMm = 9, kFewest = 8;
-  std::vector<double> outer;
+  constexpr double kNarrowestU = 55, kWidestU = 80, kBelowChamferMm = 9, kFewest = 8, kUprightMm = 0.3;
+  std::vector<Sample1> outer;
   for (const Vector2d& p : placed.points)
     if (p.x() > kNarrowestU && p.x() < kWidestU && p.y() < -kBelowChamferMm && p.y() > -50)
-      outer.push_back(p.x());
+      outer.push_back({p.y() + 20, p.x()});
   if (static_cast<double>(outer.size()) < kFewest) return Estimate::unknown("outer face not seen");
-  const double face = median_of(outer);
-  std::vector<double> scatter;
-  for (const double u : outer) scatter.push_back(std::abs(u - face));
-  const double sigma =
-      std::max(kMinScaleMm, 1.4826 * median_of(scatter)) *
-      std::sqrt(std::min(1.0, placed.registration.correlated_points / static_cast<double>(outer.size())));
-  return difference({"", face, sigma}, back);
+  const auto fit = fit_polynomial(outer, 0, kMinScaleMm);
+  // What bends away is the rounded rim, no face.
+  if (!fit || fit->rms > kUprightMm) return Estimate::unknown("outer face not seen");
+  return difference(place_from(fit, 0, placed.registration, "outer face"), back);
 }
 
 Estimate diameter_of(const Place& tread, const Registration& registration, const WheelSectionKind& kind) {
