@@ -135,6 +135,15 @@ void summarise(const MeasureArguments& arguments, const MeasureOutcome& outcome)
   if (gap.known > 0)
     say(common, fmt::format("{:<18} {:>6} {:>10.3f} {:>10.3f} {:>10.3f}", "overlap_gap", gap.known, gap.low,
                             gap.mean, gap.high));
+  const Spread diameter = spread_of(outcome.rows, "diameter");
+  if (diameter.known > 1)
+    say(common, fmt::format("radial run-out {:.3f} mm between the lowest and the highest of these frames",
+                            (diameter.high - diameter.low) / 2));
+  if (diameter.known > 0 && !arguments.rig.empty())
+    say(common,
+        "the diameter's sigma is twice that of the axis' place in the rig's calibration: a board seen over a "
+        "few degrees fixes an "
+        "axis half a metre away only to a millimetre; it is common to all frames");
   std::map<std::string, int> reasons;
   for (const MeasuredFrame& row : outcome.rows)
     if (row.status != "ok") ++reasons[row.status];

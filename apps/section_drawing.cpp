@@ -123,6 +123,7 @@ RgbPicture section_picture(const SectionDrawing& drawing, const MeasuredFrame& r
     cv::line(image, at(w.foot), at(w.end), rgb_of(w.difference), 1, cv::LINE_AA, 4);
   for (const Vector2d& p : drawing.points)
     cv::circle(image, at(p), 32, {30, 30, 30}, cv::FILLED, cv::LINE_AA, 4);
+  cv::rectangle(image, {0, image.rows - text_px, image.cols, text_px}, {255, 255, 255}, cv::FILLED);
   int y = image.rows - text_px + 24, column = 0;
   const auto write = [&](const std::string& text) {
     cv::putText(image, text, {20 + column * width_px / 2, y}, cv::FONT_HERSHEY_SIMPLEX, 0.65, {20, 20, 20}, 1,

@@ -16,6 +16,11 @@ using Eigen::Vector2d;
 
 constexpr double kMinScaleMm = 0.005;
 
+/// Of one of `placed.points`.
+double weight_of(const PlacedSection& placed, const Vector2d& point) {
+  return placed.section[static_cast<std::size_t>(&point - placed.points.data())].weight;
+}
+
 /// A coordinate of the section with its 1-sigma error, or why it is not known.
 struct Place {
   std::string reason;  ///< empty: known
@@ -37,7 +42,7 @@ Place find_back(const PlacedSection& placed, const WheelSectionKind& kind) {
   std::vector<Sample1> back;
   for (const Vector2d& p : placed.points)
     if (std::abs(p.x() - kBackU) < kNearMm && p.y() < placed.reference.top_v() - 19.5 && p.y() > -40)
-      back.push_back({p.y(), p.x() - kBackU});
+      back.push_back({p.y(), p.x() - kBackU, weight_of(placed, p)});
   if (static_cast<double>(back.size()) >= kFewest) {
     const Place seen = place_from(fit_polynomial(back, 0, kMinScaleMm), kBackU, placed.registration, "back");
     if (seen.known()) return seen;
@@ -51,7 +56,7 @@ Place tread_height(const PlacedSection& placed, double u) {
   bool left = false, right = false;
   for (const Vector2d& p : placed.points)
     if (std::abs(p.x() - u) < kHalfWidthMm && std::abs(p.y()) < kDeepMm) {
-      samples.push_back({p.x() - u, p.y()});
+      samples.push_back({p.x() - u, p.y(), weight_of(placed, p)});
       (p.x() < u ? left : right) = true;
     }
   if (!left || !right) return {"tread at the datum not seen", 0, 0};
@@ -63,9 +68,9 @@ struct Tip {
   double u = 0;
 };
 
-/// A parabola over the highest 5 mm of the flange (R 12: its fourth order is below 0.001 mm there).
+/// A parabola over the highest 3 mm of the flange: narrow, since a worn tip may have an edge.
 Tip find_tip(const PlacedSection& placed) {
-  constexpr double kFlangeU = -42, kHalfWidthMm = 2.5, kAboveDatumMm = 15;
+  constexpr double kFlangeU = -42, kHalfWidthMm = 1.6, kAboveDatumMm = 15;
   const Vector2d* highest = nullptr;
   for (const Vector2d& p : placed.points)
     if (p.x() < kFlangeU && p.x() > -75 && p.y() < placed.reference.top_v() + 15 && p.y() > kAboveDatumMm &&
@@ -75,12 +80,12 @@ Tip find_tip(const PlacedSection& placed) {
   std::vector<Sample1> samples;
   for (const Vector2d& p : placed.points)
     if (std::abs(p.x() - highest->x()) < kHalfWidthMm && highest->y() - p.y() < 2)
-      samples.push_back({p.x() - highest->x(), p.y() - highest->y()});
+      samples.push_back({p.x() - highest->x(), p.y() - highest->y(), weight_of(placed, p)});
   const auto fit = fit_polynomial(samples, 2, kMinScaleMm);
   if (!fit || fit->curvature >= 0) return {{"flange tip not seen", 0, 0}, 0};
   const double vertex = -fit->slope / fit->curvature;
   // The top lies between points on its either side, else the section ends before it.
-  constexpr double kBesideMm = 0.8;
+  constexpr double kBesideMm = 0.5;
   const auto left = [&](const Sample1& s) { return s.t < vertex - kBesideMm; };
   const auto right = [&](const Sample1& s) { return s.t > vertex + kBesideMm; };
   if (std::count_if(samples.begin(), samples.end(), left) < 2 ||
@@ -99,7 +104,7 @@ Place face_at(const PlacedSection& placed, double v, double half_height_mm, doub
   bool above = false, below = false;
   for (const Vector2d& p : placed.points)
     if (p.x() > tip_u && p.x() < tip_u + kWidestMm && std::abs(p.y() - v) < half_height_mm) {
-      samples.push_back({p.y() - v, p.x() - tip_u});
+      samples.push_back({p.y() - v, p.x() - tip_u, weight_of(placed, p)});
       (p.y() < v ? below : above) = true;
     }
   if (!above || !below) return {what + " not seen", 0, 0};
@@ -131,24 +136,21 @@ Estimate hollow_of(const PlacedSection& placed) {
   double depth = 0;
   for (const Sample1& s : strips)
     if (s.t < high->t) depth = std::max(depth, high->value - s.value);
-  const double noise = std::max(placed.registration.rms_mm, kMinScaleMm);
-  return Estimate::known(depth, noise * std::sqrt(2.0));
+  const double error = std::max(placed.registration.stretch_error_mm, kMinScaleMm);
+  return Estimate::known(depth, error * std::sqrt(2.0));
 }
 
 Estimate rim_width(const PlacedSection& placed, const Place& back) {
-  constexpr double kNarrowestU = 55, kWidestU = 80, kBelowChamferMm = 9, kFewest = 8;
-  std::vector<double> outer;
+  constexpr double kNarrowestU = 55, kWidestU = 80, kBelowChamferMm = 9, kFewest = 8, kUprightMm = 0.3;
+  std::vector<Sample1> outer;
   for (const Vector2d& p : placed.points)
     if (p.x() > kNarrowestU && p.x() < kWidestU && p.y() < -kBelowChamferMm && p.y() > -50)
-      outer.push_back(p.x());
+      outer.push_back({p.y() + 20, p.x()});
   if (static_cast<double>(outer.size()) < kFewest) return Estimate::unknown("outer face not seen");
-  const double face = median_of(outer);
-  std::vector<double> scatter;
-  for (const double u : outer) scatter.push_back(std::abs(u - face));
-  const double sigma =
-      std::max(kMinScaleMm, 1.4826 * median_of(scatter)) *
-      std::sqrt(std::min(1.0, placed.registration.correlated_points / static_cast<double>(outer.size())));
-  return difference({"", face, sigma}, back);
+  const auto fit = fit_polynomial(outer, 0, kMinScaleMm);
+  // What bends away is the rounded rim, no face.
+  if (!fit || fit->rms > kUprightMm) return Estimate::unknown("outer face not seen");
+  return difference(place_from(fit, 0, placed.registration, "outer face"), back);
 }
 
 Estimate diameter_of(const Place& tread, const Registration& registration, const WheelSectionKind& kind) {

@@ -13,7 +13,7 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kStripMm = 1.0, kHalfWidthMm = 30, kDepthMm = 12, kTrusted = 0.1;
+constexpr double kStripMm = 1.0, kHalfWidthMm = 30, kDepthMm = 12, kTrusted = 0.02;
 
 /// Per strip of the top: the median height over the reference, so that the outline's slope takes no part.
 std::map<int, double> heights_of(const PlacedSection& placed, int sensor) {

@@ -20,7 +20,7 @@ constexpr double kCentreDepthMm = 20;  // of the sectors' centre below the top
 
 /// Without the points that glare has spoilt.
 std::vector<Vector2d> trusted_points(const PlacedSection& placed) {
-  constexpr double kTrusted = 0.1;
+  constexpr double kTrusted = 0.02;
   std::vector<Vector2d> out;
   for (std::size_t i = 0; i < placed.points.size(); ++i)
     if (placed.section[i].weight > kTrusted) out.push_back(placed.points[i]);

@@ -215,7 +215,8 @@ Registration register_section(const Section& section, const ReferenceShape& refe
     fit.points = find_counterparts(section, fit.pose, reference);
     weigh(fit.points, unworn_zones(reference.kind()), options.noise_floor_mm, 1.0);
     describe(section, fit, true, out);
-    out.covariance.setZero();  // known beforehand
+    out.covariance.setZero();                             // known beforehand
+    out.stretch_error_mm = 0, out.correlated_points = 1;  // what is off is the object, not the measurement
     out.view = RegistrationView::kBothSides;
     out.reason.clear();
     return out;

@@ -39,7 +39,7 @@ std::optional<Weighted> solve(const std::vector<Sample1>& samples, const std::ve
     g += weights[i] * samples[i].value * row;
   }
   const Eigen::FullPivLU<MatrixXd> lu(H);
-  if (!(lu.rcond() > kDetermined)) return std::nullopt;
+  if (!lu.isInvertible() || !(lu.rcond() > kDetermined)) return std::nullopt;
   return Weighted{lu.solve(g), lu.inverse()};
 }
 

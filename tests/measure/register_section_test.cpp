@@ -130,14 +130,14 @@ TEST_F(RegisterRail, SameInputGivesTheSameBits) {
   EXPECT_EQ(a.reference_from_section.move.translation, b.reference_from_section.move.translation);
 }
 
-// The bound is the project's: 2 ms a section, CPU time of one thread; the best of 25, since other
-// programs on the machine only ever add to it.
+// The bound is the project's: 2 ms a section (as many points as the demo's rig sees, 1150), CPU time of one
+// thread; the best of 25, since other programs on the machine only ever add to it.
 TEST_F(RegisterRail, TakesAtMostTwoMilliseconds) {
 #ifndef NDEBUG
   GTEST_SKIP() << "not an optimised build";
 #endif
-  const Section section =
-      rail_section(worn_rail(nominal, 3, 3), {.noise_mm = 0.01, .turn_deg = 1.4, .shift = {20, -300}});
+  const Section section = rail_section(
+      worn_rail(nominal, 3, 3), {.spacing_mm = 0.42, .noise_mm = 0.01, .turn_deg = 1.4, .shift = {20, -300}});
   std::vector<double> ms;
   for (int i = 0; i < 25; ++i) {
     const std::clock_t start = std::clock();
