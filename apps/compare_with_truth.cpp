@@ -9,6 +9,7 @@
 #include <numbers>
 #include <set>
 
+#include "apps/measurement_table.h"
 #include "core/error.h"
 #include "core/polyline_search.h"
 #include "core/section_alignment.h"
@@ -143,6 +144,27 @@ CloudError compare_cloud(const std::vector<Profile>& profiles, const Rig& rig, c
   error.absolute_rms_mm = absolute.rms();
   error.far_fraction = error.points > 0 ? far / static_cast<double>(error.points) : 0.0;
   error.recovered_fraction = recovered(profiles, rig, truth / "stripes.csv");
+  return error;
+}
+
+WearError compare_wear(const std::vector<MeasuredFrame>& rows, const std::filesystem::path& truth) {
+  std::map<std::int64_t, std::array<double, 2>> wear;
+  CsvReader csv(truth / "wear.csv", {"frame", "vertical_wear", "side_wear"});
+  while (csv.next()) wear[csv.integer(0)] = {csv.number(1), csv.number(2)};
+  WearError error;
+  const auto add = [](const Estimate* measured, double true_mm, double& sum, int& frames) {
+    if (!measured || !measured->value) return;
+    sum += (*measured->value - true_mm) * (*measured->value - true_mm);
+    ++frames;
+  };
+  for (const auto& row : rows) {
+    const auto found = wear.find(row.frame);
+    if (found == wear.end()) continue;
+    add(find_estimate(row, "vertical_wear"), found->second[0], error.vertical_rms_mm, error.vertical_frames);
+    add(find_estimate(row, "side_wear"), found->second[1], error.side_rms_mm, error.side_frames);
+  }
+  error.vertical_rms_mm = std::sqrt(error.vertical_rms_mm / std::max(1, error.vertical_frames));
+  error.side_rms_mm = std::sqrt(error.side_rms_mm / std::max(1, error.side_frames));
   return error;
 }
 

@@ -10,6 +10,7 @@
 
 #include "core/profile.h"
 #include "core/rig.h"
+#include "measure/measure_profile.h"
 
 namespace lightstripe {
 
@@ -39,5 +40,14 @@ struct CloudError {
 
 /// `truth` is the folder that simulate_scene writes (sections.csv, stripes.csv).
 CloudError compare_cloud(const std::vector<Profile>& profiles, const Rig& rig, const std::filesystem::path& truth);
+
+/// Of the wear measured on a rail, over the frames in which it is known.
+struct WearError {
+  double vertical_rms_mm = 0, side_rms_mm = 0;
+  int vertical_frames = 0, side_frames = 0;
+};
+
+/// Compares with the wear.csv of a rail's truth.
+WearError compare_wear(const std::vector<MeasuredFrame>& rows, const std::filesystem::path& truth);
 
 }  // namespace lightstripe

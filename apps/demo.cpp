@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <optional>
 
 #include "apps/calibrate.h"
 #include "apps/command.h"
 #include "apps/compare_with_truth.h"
+#include "apps/measure.h"
 #include "apps/preview.h"
 #include "apps/reconstruct.h"
 #include "apps/simulate.h"
@@ -44,7 +46,7 @@ void write_overview(const std::vector<RgbPicture>& overlays, const std::vector<P
   write_rgb_image(file, overview.pixels, overview.width, overview.height);
 }
 
-std::string accuracy_table(const RigError& rig, const CloudError& cloud) {
+std::string accuracy_table(const RigError& rig, const CloudError& cloud, const std::optional<WearError>& wear) {
   std::string table;
   const auto row = [&](const std::string& what, const std::string& value) {
     table += fmt::format("| {:<58} | {:>12} |\n", what, value);
@@ -61,24 +63,41 @@ std::string accuracy_table(const RigError& rig, const CloudError& cloud) {
   row("sections, place as well, rms", fmt::format("{:.3f} mm", cloud.absolute_rms_mm));
   row("points more than 1 mm off", fmt::format("{:.3f} %", 100 * cloud.far_fraction));
   row("visible lit stripe recovered", fmt::format("{:.1f} %", 100 * cloud.recovered_fraction));
+  if (wear && wear->vertical_frames > 0)
+    row(fmt::format("vertical wear of {} sections, rms", wear->vertical_frames), fmt::format("{:.4f} mm", wear->vertical_rms_mm));
+  if (wear && wear->side_frames > 0)
+    row(fmt::format("side wear of {} sections, rms", wear->side_frames), fmt::format("{:.4f} mm", wear->side_rms_mm));
   table.pop_back();
   return table;
+}
+
+/// Nothing where the scene is no rail, or none of its sections could be measured.
+std::optional<WearError> measure_wear(const fs::path& folder, const fs::path& truth, const CommonOptions& quiet) {
+  if (!fs::exists(truth / "wear.csv")) return std::nullopt;
+  MeasureArguments arguments;
+  arguments.common = quiet;
+  arguments.common.output = (folder / "measurements.csv").string();
+  arguments.profiles = (folder / "profiles.csv").string();
+  arguments.kind = ObjectKind::kRail;
+  const MeasureOutcome outcome = measure_profiles(arguments);
+  if (outcome.num_ok == 0) return std::nullopt;
+  return compare_wear(outcome.rows, truth);
 }
 
 int run_demo(const std::string& scene_file, const CommonOptions& common) {
   const fs::path folder = common.output.empty() ? "demo-output" : common.output;
   CommonOptions stage = common;
 
-  say(common, "1/3 rendering a calibration session and a scan of a rail");
+  say(common, "1/4 rendering a calibration session and a scan of a rail");
   stage.output = folder.string();
   const SimulationSummary simulated = simulate_with_progress(scene_file.empty() ? Scene{} : read_scene(scene_file), stage);
 
-  say(common, "2/3 calibrating the rig from the board images");
+  say(common, "2/4 calibrating the rig from the board images");
   stage.output = (folder / "rig.yaml").string();
   stage.quiet = true;
   if (const int code = calibrate_session(simulated.session.string(), {}, {}, stage); code != kExitDone) return code;
 
-  say(common, "3/3 reconstructing the scan\n");
+  say(common, "3/4 reconstructing the scan");
   ReconstructArguments arguments;
   arguments.common = stage;
   arguments.common.output = (folder / "cloud.ply").string();
@@ -90,15 +109,18 @@ int run_demo(const std::string& scene_file, const CommonOptions& common) {
   const std::vector<Profile> profiles = read_profiles(folder / "profiles.csv");
   write_overview(draw_overlays(read_scan(simulated.scan), folder / "overlay"), profiles, folder / "overview.png");
 
+  say(common, "4/4 measuring the sections\n");
+  const std::optional<WearError> wear = measure_wear(folder, simulated.truth, stage);
+
   const Rig rig = read_rig(folder / "rig.yaml");
   const RigError rig_error = compare_rigs(rig, read_rig(simulated.truth / "rig.yaml"));
   const CloudError cloud_error = compare_cloud(profiles, rig, simulated.truth);
-  say(common, accuracy_table(rig_error, cloud_error));
+  say(common, accuracy_table(rig_error, cloud_error, wear));
   say(common, fmt::format("\n{} points from {} frames of {} sensors, {:.0f} frames/s with {} threads (PNG decoding included)",
                           outcome.summary.points, outcome.summary.frames, rig.sensors.size(),
                           static_cast<double>(outcome.summary.frames) / outcome.seconds, thread_count(common)));
   say(common, fmt::format("\ncloud      {0}/cloud.ply (picture: {0}/cloud.png)\nsections   {0}/profiles.csv\n"
-                          "overlays   {0}/overlay/*.png\nrig        {0}/rig.yaml\ntruth      {0}/truth/",
+                          "measured   {0}/measurements.csv\noverlays   {0}/overlay/*.png\nrig        {0}/rig.yaml\ntruth      {0}/truth/",
                           folder.string()));
   return kExitDone;
 }

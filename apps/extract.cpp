@@ -10,8 +10,10 @@
 #include <set>
 
 #include "apps/command.h"
+#include "apps/explain.h"
 #include "apps/progress.h"
 #include "core/error.h"
+#include "extraction/histogram_plot.h"
 #include "extraction/overlay.h"
 #include "io/atomic_file.h"
 #include "io/images.h"
@@ -27,6 +29,7 @@ struct ExtractArguments {
   std::vector<std::string> images;
   std::string channel = "auto";
   std::string overlay_folder;
+  bool explain = false;
   Overrides overrides;
 };
 
@@ -54,11 +57,12 @@ Channel parse_channel(const std::string& text) {
 
 struct Extracted {
   std::string rows;
+  std::string explanation;
   std::size_t lines = 0, points = 0;
 };
 
 Extracted extract_one(const std::string& file, Channel channel, const ExtractionOptions& options,
-                      const std::optional<fs::path>& overlay) {
+                      const std::optional<fs::path>& overlay, bool explain) {
   const Image8 image = read_image(file, channel);
   const ExtractionResult result = extract_stripes(image, options);
   Extracted out;
@@ -66,6 +70,14 @@ Extracted extract_one(const std::string& file, Channel channel, const Extraction
   out.lines = result.stripes.size();
   for (const auto& stripe : result.stripes) out.points += stripe.points.size();
   if (overlay) write_rgb_image(*overlay, draw_overlay(image, result.stripes), image.width, image.height);
+  if (!explain) return out;
+  out.explanation = explain_extraction(file, options, result);
+  if (overlay) {
+    fs::path picture = *overlay;
+    picture.replace_filename(overlay->stem().string() + "_histogram.png");
+    write_rgb_image(picture, draw_histogram(compute_histogram(image.view()), result), kHistogramPlotWidth,
+                    kHistogramPlotHeight);
+  }
   return out;
 }
 
@@ -89,11 +101,12 @@ int run_extract(const ExtractArguments& arguments) {
     oneapi::tbb::parallel_for(std::size_t{0}, results.size(), [&](std::size_t i) {
       const std::size_t index = begin + i;
       results[i] = extract_one(arguments.images[index], channel, options,
-                               overlays.empty() ? std::nullopt : std::optional(overlays[index]));
+                               overlays.empty() ? std::nullopt : std::optional(overlays[index]), arguments.explain);
       progress.step();
     });
     for (const auto& result : results) {
       table << result.rows;
+      if (!result.explanation.empty()) say(arguments.common, result.explanation);
       lines += result.lines;
       points += result.points;
     }
@@ -117,6 +130,8 @@ void add_extract_command(CLI::App& app, Command& run) {
   command->add_option("--channel", arguments->channel,
                       "of colour images: auto, gray, red, green, blue, red-excess, green-excess, blue-excess");
   command->add_option("--overlay", arguments->overlay_folder, "folder for pictures with the lines drawn in");
+  command->add_flag("--explain", arguments->explain,
+                    "print how the thresholds came about; with --overlay also draw the histogram");
   add_field_options<ExtractionOptions>(*command, "", arguments->overrides);
   command->callback([arguments, &run] { run = [arguments] { return run_extract(*arguments); }; });
 }

@@ -5,15 +5,21 @@
 #include <fmt/format.h>
 #include <oneapi/tbb/parallel_for.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <map>
+#include <sstream>
 
+#include "apps/measure_input.h"
+#include "apps/measure_report.h"
 #include "apps/measurement_table.h"
 #include "apps/run_record.h"
+#include "apps/section_drawing.h"
 #include "core/error.h"
 #include "io/atomic_file.h"
-#include "io/nominal_outlines.h"
-#include "io/tables.h"
+#include "io/images.h"
+#include "io/rig_file.h"
+#include "measure/profile_formats.h"
 
 namespace lightstripe {
 namespace {
@@ -24,26 +30,38 @@ std::string output_of(const MeasureArguments& arguments) {
   return arguments.common.output.empty() ? "measurements.csv" : arguments.common.output;
 }
 
-std::string kind_name(ObjectKind kind) { return kind == ObjectKind::kRail ? "rail" : "wheel"; }
-
-ReferenceShape reference_of(const MeasureArguments& arguments) {
-  const std::string name = !arguments.nominal.empty()            ? arguments.nominal
-                           : arguments.kind == ObjectKind::kRail ? "60E1"
-                                                                 : "S1002";
-  NominalProfile profile = read_nominal_profile(name);
-  if (profile.kind != kind_name(arguments.kind))
-    throw Error(name, "is the outline of a " + (profile.kind.empty() ? "thing without kind" : profile.kind),
-                "give the outline of a " + kind_name(arguments.kind) + ", or the other --kind");
-  return ReferenceShape(profile.name.empty() ? name : profile.name, arguments.kind,
-                        std::move(profile.outline));
-}
-
 MeasureOptions options_of(const MeasureArguments& arguments) {
   MeasureOptions options;
   apply_overrides(options.rail, arguments.rail);
   apply_overrides(options.wheel, arguments.wheel);
   apply_overrides(options.registration, arguments.registration);
+  if (arguments.max_overlap_gap_mm) options.max_overlap_gap_mm = *arguments.max_overlap_gap_mm;
   return options;
+}
+
+ReferenceShape reference_of(const MeasureArguments& arguments, const MeasureInput& input,
+                            const MeasureOptions& options) {
+  if (arguments.nominal != "auto") return read_reference(arguments.nominal, arguments.kind);
+  if (arguments.kind == ObjectKind::kWheel)
+    throw Error("--nominal auto", "tells rails apart, not wheels", "name the wheel's outline");
+  const IdentifiedRail found = identify_rail(input.profiles, options.registration);
+  say(arguments.common, "rail: " + found.name);
+  if (!found.also.empty())
+    warn(
+        fmt::format("{} cannot be told from {}: they differ in the head only, which wears; name the right "
+                    "one with --nominal",
+                    found.name, fmt::join(found.also, ", ")));
+  return read_reference(found.name, arguments.kind);
+}
+
+/// How well the rig knows the distance from its axis: the larger of the axis point's sigmas, nothing if the
+/// rig says none.
+std::optional<double> axis_sigma(const std::string& rig_file) {
+  std::optional<double> largest;
+  for (const auto& [name, sigma] : read_rig(rig_file).quality.sigma)
+    if (name.find("axis_point") != std::string::npos) largest = std::max(largest.value_or(0), sigma);
+  if (!largest) warn(rig_file + " says no error of its axis: the diameter gets none");
+  return largest;
 }
 
 Limits limits_of(const MeasureArguments& arguments) {
@@ -60,6 +78,48 @@ std::string effective_options(const MeasureArguments& arguments, const MeasureOp
   text += arguments.kind == ObjectKind::kRail ? "rail:\n" + indented(dump_yaml(options.rail))
                                               : "wheel:\n" + indented(dump_yaml(options.wheel));
   return text + "limits:\n" + indented(dump_yaml(limits));
+}
+
+void write_section(const fs::path& path, const RecordedProfile& profile, bool simpack) {
+  std::ostringstream text;
+  simpack ? write_simpack(text, profile) : write_miniprof(text, profile);
+  write_file(path, text.str());
+}
+
+/// Each section that was registered, on its reference, as a railway file.
+void export_sections(const MeasureArguments& arguments, const MeasureInput& input,
+                     const MeasureOutcome& outcome) {
+  const bool simpack = arguments.export_format == "simpack", rail = arguments.kind == ObjectKind::kRail;
+  const char* const extension = simpack ? (rail ? "prr" : "prw") : rail ? "ban" : "whl";
+  for (std::size_t i = 0; i < outcome.rows.size(); ++i) {
+    const MeasuredFrame& row = outcome.rows[i];
+    if (!row.registration.usable()) continue;
+    RecordedProfile profile;
+    profile.kind = arguments.kind;
+    for (const ProfilePoint& p : input.profiles[i].points)
+      profile.points.push_back(row.registration.reference_from_section * Eigen::Vector2d(p.u, p.v));
+    profile.header["Frame"] = std::to_string(row.frame);
+    write_section(fs::path(arguments.export_folder) / fmt::format("section_{:06}.{}", row.frame, extension),
+                  profile, simpack);
+  }
+}
+
+void write_plots(const MeasureArguments& arguments, const MeasureInput& input, const MeasureOutcome& outcome,
+                 const ReferenceShape& reference) {
+  if (!arguments.export_folder.empty()) export_sections(arguments, input, outcome);
+  for (const std::int64_t frame : arguments.plot) {
+    const auto row = std::find_if(outcome.rows.begin(), outcome.rows.end(),
+                                  [&](const MeasuredFrame& r) { return r.frame == frame; });
+    if (row == outcome.rows.end())
+      throw Error(fmt::format("--plot {}", frame), "the sections have no such frame",
+                  "give the number of a frame in the table");
+    const auto& profile = input.profiles[static_cast<std::size_t>(row - outcome.rows.begin())];
+    const RgbPicture picture = section_picture(draw_section(profile, *row, reference), *row);
+    const fs::path path = fs::path(output_of(arguments)).replace_extension() +=
+        fmt::format("_{:06}.png", frame);
+    write_rgb_image(path, picture.pixels, picture.width, picture.height);
+    say(arguments.common, "frame " + std::to_string(frame) + " -> " + path.string());
+  }
 }
 
 void summarise(const MeasureArguments& arguments, const MeasureOutcome& outcome) {
@@ -98,24 +158,25 @@ MeasureOutcome measure_profiles(const MeasureArguments& arguments) {
   const ThreadLimit limit(arguments.common);
   const MeasureOptions options = options_of(arguments);
   const Limits limits = limits_of(arguments);
-  const std::vector<Profile> profiles = read_profiles(arguments.profiles);
-  if (profiles.empty()) throw Error(arguments.profiles, "has no rows", "give the sections of a scan");
-  const ReferenceShape reference = reference_of(arguments);
-  MeasuredObject object{reference, {}, {}};
-  if (arguments.kind == ObjectKind::kWheel) {
-    object.wheel.radial = sections_are_radial(profiles);
-    object.prior = {true, !object.wheel.radial, object.wheel.radial, std::nullopt};
-  }
+  MeasureInput input = read_measure_input(arguments.profiles, arguments.kind);
+  if (!arguments.rig.empty()) input.wheel.axis_sigma_mm = axis_sigma(arguments.rig);
+  const ReferenceShape reference = reference_of(arguments, input, options);
+  const MeasuredObject object{reference, input.prior, input.wheel};
   MeasureOutcome outcome;
-  outcome.rows.resize(profiles.size());
-  oneapi::tbb::parallel_for(std::size_t{0}, profiles.size(), [&](std::size_t i) {
-    outcome.rows[i] = measure_profile(profiles[i], object, options);
+  outcome.rows.resize(input.profiles.size());
+  oneapi::tbb::parallel_for(std::size_t{0}, input.profiles.size(), [&](std::size_t i) {
+    outcome.rows[i] = measure_profile(input.profiles[i], object, options);
   });
   for (const MeasuredFrame& row : outcome.rows) {
     outcome.verdicts.push_back(verdict_name(judge(row, limits)));
     outcome.num_ok += row.status == "ok" ? 1 : 0;
   }
   write_file(output_of(arguments), measurement_table(outcome.rows, arguments.kind, outcome.verdicts));
+  write_plots(arguments, input, outcome, reference);
+  if (!arguments.report.empty())
+    write_file(arguments.report,
+               measure_report_html({input.profiles, outcome.rows, outcome.verdicts, reference, limits,
+                                    options.max_overlap_gap_mm, arguments.profiles}));
   write_run_record(output_of(arguments), "measure", {arguments.profiles},
                    effective_options(arguments, options, limits));
   return outcome;
@@ -124,19 +185,33 @@ MeasureOutcome measure_profiles(const MeasureArguments& arguments) {
 void add_measure_command(CLI::App& app, Command& run) {
   auto* command = app.add_subcommand("measure", "sections to wear and dimensions of rails and wheels");
   auto arguments = std::make_shared<MeasureArguments>();
-  command->add_option("profiles", arguments->profiles, "table of sections (profiles.csv)")->required();
-  command->add_option("--kind", arguments->kind, "rail or wheel")
-      ->transform(CLI::CheckedTransformer(
-          std::map<std::string, ObjectKind>{{"rail", ObjectKind::kRail}, {"wheel", ObjectKind::kWheel}}))
+  const std::map<std::string, ObjectKind> kinds{{"rail", ObjectKind::kRail}, {"wheel", ObjectKind::kWheel}};
+  command
+      ->add_option("profiles", arguments->profiles,
+                   "sections: profiles.csv, or one of .ban .whl .mpt .prr .prw")
       ->required();
-  command->add_option("--nominal", arguments->nominal,
-                      "outline of the new rail or wheel: a name or a file [60E1, S1002]");
+  command->add_option("--kind", arguments->kind, "rail or wheel")
+      ->transform(CLI::CheckedTransformer(kinds))
+      ->required();
+  command->add_option(
+      "--nominal", arguments->nominal,
+      "the new rail or wheel: a name, an outline file, a recorded profile (baseline), or auto [60E1, S1002]");
   command->add_option("--limits", arguments->limits, "file of limits (YAML)");
+  command->add_option("--report", arguments->report, "report to look at (HTML)");
+  command->add_option("--plot", arguments->plot,
+                      "draws the section of this frame (PNG beside the table); may be repeated");
+  command->add_option("--export", arguments->export_folder,
+                      "writes each registered section there (.ban, .whl or .prr, .prw)");
+  command->add_option("--export-format", arguments->export_format, "miniprof or simpack [miniprof]")
+      ->check(CLI::IsMember({"miniprof", "simpack"}));
+  command->add_option("--rig", arguments->rig, "rig file, for the diameter's predicted error");
   add_common_options(*command, arguments->common, "table of measurements (default: measurements.csv)");
   add_field_options<RailOptions>(*command, "", arguments->rail);
   add_field_options<WheelOptions>(*command, "wheel.", arguments->wheel);
   add_field_options<RegistrationOptions>(*command, "registration.", arguments->registration);
   add_field_options<Limits>(*command, "limit.", arguments->limit);
+  command->add_option("--max-overlap-gap-mm", arguments->max_overlap_gap_mm,
+                      "between two sensors on the head: above, the calibration is in doubt [0.1]");
   command->callback([arguments, &run] { run = [arguments] { return run_measure(*arguments); }; });
 }
 

@@ -3,6 +3,7 @@
 // Sections on disk -> measurements on disk.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,11 +16,13 @@ struct MeasureArguments {
   CommonOptions common;
   std::string profiles;  ///< profiles.csv, or a file of the railway world
   ObjectKind kind = ObjectKind::kRail;
-  std::string nominal;   ///< empty: 60E1 or S1002
-  std::string baseline;  ///< a section to compare with instead of a nominal outline
-  std::string limits;    ///< YAML; empty: none
-  std::string report;    ///< empty: not written
+  std::string nominal;  ///< empty: 60E1 or S1002; auto: the rail that fits
+  std::string limits;   ///< YAML; empty: none
+  std::string report;   ///< empty: not written
   std::vector<std::int64_t> plot;
+  std::string export_folder, export_format = "miniprof";
+  std::string rig;  ///< empty: the diameter gets no sigma
+  std::optional<double> max_overlap_gap_mm;
   Overrides rail, wheel, registration, limit;
 };
 

@@ -27,6 +27,11 @@ struct ShiftedLine {
     whole = static_cast<int>(std::floor(bounded));
     part = static_cast<float>(bounded - whole);
   }
+  /// Whether the places first ... last need no clamping.
+  bool contains(int begin, int end) const { return begin + whole >= 0 && end + whole + 1 < count; }
+  static T between(float a, float b, float part) {
+    return static_cast<T>(static_cast<int>(a + part * (b - a) + 0.5F));
+  }
   T operator()(int place) const {
     const int at = place + whole;
     const double a = first[std::clamp(at, 0, count - 1) * step],
@@ -45,7 +50,19 @@ void fill_columns_outside(ImageView<T> image, const BorderWindow& w, std::vector
     if (x >= 0 && x < image.width) continue;
     const int column = x < 0 ? 0 : image.width - 1;
     const ShiftedLine<T> line(image.data + column, image.stride, image.height, slope * (column - x));
-    for (int j = first; j < last; ++j) window[static_cast<std::size_t>(j * w.pitch + i)] = line(w.top + j);
+    T* out = window.data() + first * w.pitch + i;
+    if (!line.contains(w.top + first, w.top + last)) {
+      for (int j = first; j < last; ++j, out += w.pitch) *out = line(w.top + j);
+      continue;
+    }
+    const T* pixel = line.first + (w.top + first + line.whole) * line.step;
+    float previous = *pixel;
+    for (int j = first; j < last; ++j, out += w.pitch) {
+      pixel += line.step;
+      const float next = *pixel;
+      *out = ShiftedLine<T>::between(previous, next, line.part);
+      previous = next;
+    }
   }
 }
 

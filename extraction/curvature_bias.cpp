@@ -11,72 +11,64 @@
 namespace lightstripe {
 namespace {
 
-using Shift = BendWorkspace::Shift;
+constexpr std::size_t kLeastReach = 2;  // nodes to both sides
 
-/// The way from one smoothed point to the true line.
-class BiasEstimate {
- public:
-  BiasEstimate(double sigma, std::span<const StripePoint> points)
-      : sigma_(sigma), half_variance_(0.5 * (sigma * sigma + 1.0 / 12)), points_(points), fitter_(points) {}
+/// The way from a smoothed node to the true line. `sigma_px`: the node's own error.
+FitPoint shift_of(const LocalFit& fit, double curvature_gain, double sigma, double sigma_px) {
+  const double half_variance = 0.5 * (sigma * sigma + 1.0 / 12);
+  // Neighbouring points share their noise over 2 sqrt(pi) sigma.
+  const double shared = std::max(1.0, 3.545 * sigma / std::sqrt(fit.squared_step));
+  const double error = sigma_px * curvature_gain / fit.squared_step, variance = error * error * shared;
+  const double square = fit.curvature_x * fit.curvature_x + fit.curvature_y * fit.curvature_y;
+  if (square <= 0) return {};
+  const double weight = square / (square + 9 * variance);
+  // A bend sharper than the kernel is a corner, where the series behind the formula ends.
+  const double size = half_variance * std::sqrt(square), limit = 0.25 * sigma;
+  const double shift = weight * half_variance * (size > limit ? limit / size : 1.0);
+  return {-shift * fit.curvature_x, -shift * fit.curvature_y};
+}
 
-  Shift at(std::size_t i, std::size_t reach) {
-    const LocalFit fit = fitter_.at(i, reach);
-    if (reach != reach_) gain_ = local_fit_gains(reach_ = reach).curvature;
-    // Neighbouring points share their noise over 2 sqrt(pi) sigma.
-    const double shared = std::max(1.0, 3.545 * sigma_ / std::sqrt(fit.squared_step));
-    const double sigma_px = points_[i].sigma_px;
-    const double variance =
-        sigma_px * sigma_px * gain_ * gain_ * shared / (fit.squared_step * fit.squared_step);
-    const double square = fit.curvature_x * fit.curvature_x + fit.curvature_y * fit.curvature_y;
-    if (square <= 0) return {};
-    const double weight = square / (square + 9 * variance);
-    // A bend sharper than the kernel is a corner, where the series behind the formula ends.
-    const double size = half_variance_ * std::sqrt(square), limit = 0.25 * sigma_;
-    const double shift = weight * half_variance_ * (size > limit ? limit / size : 1.0);
-    return {-shift * fit.curvature_x, -shift * fit.curvature_y};
+/// One stretch without gaps and bridges.
+void correct_stretch(std::span<StripePoint> points, double sigma, BendWorkspace& w) {
+  // The bend of a line that was smoothed over sigma changes little within one.
+  const auto stride = static_cast<std::size_t>(std::max(1.0, sigma));
+  const auto most = std::max<std::size_t>(
+      3, static_cast<std::size_t>(std::lround((3.0 * sigma + 2) / static_cast<double>(stride))));
+  w.nodes.clear();
+  for (std::size_t i = 0; i < points.size(); i += stride) w.nodes.push_back({points[i].x, points[i].y});
+  w.shifts.assign(w.nodes.size(), {});
+  LocalFitter fitter(w.nodes);
+  double gain = 0;
+  std::size_t gain_reach = 0;
+  for (std::size_t n = 0; n < w.nodes.size(); ++n) {
+    const std::size_t reach = std::min({most, n, w.nodes.size() - 1 - n});
+    if (reach < kLeastReach) continue;
+    if (reach != gain_reach) gain = local_fit_gains(gain_reach = reach).curvature;
+    w.shifts[n] = shift_of(fitter.at(n, reach), gain, sigma, points[n * stride].sigma_px);
   }
-
- private:
-  double sigma_, half_variance_;
-  std::span<const StripePoint> points_;
-  LocalFitter fitter_;
-  std::size_t reach_ = 0;
-  double gain_ = 0;
-};
+  // Too near the ends for a fit of their own: the bend goes on.
+  for (std::size_t n = 0; n < kLeastReach && w.nodes.size() > 2 * kLeastReach; ++n) {
+    w.shifts[n] = w.shifts[kLeastReach];
+    w.shifts[w.nodes.size() - 1 - n] = w.shifts[w.nodes.size() - 1 - kLeastReach];
+  }
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const std::size_t n = i / stride;
+    const FitPoint &a = w.shifts[n], &b = w.shifts[std::min(n + 1, w.shifts.size() - 1)];
+    const double u = static_cast<double>(i % stride) / static_cast<double>(stride);
+    points[i].x += a.x + u * (b.x - a.x);
+    points[i].y += a.y + u * (b.y - a.y);
+  }
+}
 
 }  // namespace
 
-void correct_curvature_bias(const DerivativeKernels& kernels, LineSet& lines, BendWorkspace& w) {
-  const auto most = static_cast<std::size_t>(std::lround(3.0 * kernels.sigma + 2));
-  // The bend of a line that was smoothed over sigma changes little within one.
-  const auto stride = static_cast<std::size_t>(std::max(1.0, kernels.sigma));
-  constexpr std::size_t kLeast = 6;
+void correct_curvature_bias(const DerivativeKernels& kernels, LineSet& lines, BendWorkspace& workspace) {
   for (const LineRange& r : lines.lines) {
-    const std::span<StripePoint> points(lines.points.data() + r.begin, r.size());
-    count_joined(points, w.joined);
-    w.shifts.assign(points.size(), {});
-    BiasEstimate bias(kernels.sigma, points);
-    Shift shift;
-    std::size_t valid_until = 0;
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      const std::size_t reach = joined_reach(w.joined, i, most);
-      if (reach < kLeast) {
-        valid_until = 0;
-        continue;
-      }
-      if (i >= valid_until || reach != most) {
-        // One estimate serves `stride` points, from their middle.
-        const std::size_t middle = i + stride / 2;
-        const bool central =
-            reach == most && middle < points.size() && joined_reach(w.joined, middle, most) == most;
-        shift = bias.at(central ? middle : i, reach);
-        valid_until = i + stride;
-      }
-      w.shifts[i] = shift;
-    }
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      points[i].x += w.shifts[i].x;
-      points[i].y += w.shifts[i].y;
+    const std::span<StripePoint> line(lines.points.data() + r.begin, r.size());
+    for (std::size_t begin = 0; begin < line.size();) {
+      const std::size_t end = joined_end(line, begin);
+      correct_stretch(line.subspan(begin, end - begin), kernels.sigma, workspace);
+      begin = end;
     }
   }
 }

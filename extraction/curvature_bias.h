@@ -7,16 +7,14 @@
 
 #include "extraction/kernels.h"
 #include "extraction/line_set.h"
+#include "extraction/local_fit.h"
 
 namespace lightstripe {
 
 /// Scratch memory.
 struct BendWorkspace {
-  struct Shift {
-    double x = 0, y = 0;  ///< px
-  };
-  std::vector<Shift> shifts;
-  std::vector<float> joined;
+  std::vector<FitPoint> nodes;   ///< one point in sigma of a stretch
+  std::vector<FitPoint> shifts;  ///< px, of each node
 };
 
 /// Moves points by sigma^2 / 2 times the line's curvature to the outer side: the heat equation in polar

@@ -22,14 +22,14 @@ int row_step(double sigma) { return std::clamp(static_cast<int>(sigma), 1, 4); }
 struct ColumnPattern {
   int step, offset;
   std::uint64_t bits() const {
-    const std::uint64_t first = step == 1 ? ~0ULL : step == 2 ? 0x5555555555555555ULL : 0x1111111111111111ULL;
+    const std::uint64_t first = step == 1 ? ~0ULL : step == 2 ? 0x5555555555555555ULL : 0x0101010101010101ULL;
     return first << offset;
   }
   int first_from(int x) const { return x + (offset - x % step + step) % step; }
 };
 
 ColumnPattern column_pattern(int rows, int row_number) {
-  const int step = rows == 1 ? 1 : rows == 2 ? 2 : 4;
+  const int step = rows == 1 ? 1 : rows == 2 ? 2 : 8;
   return {step, row_number % step};
 }
 

@@ -82,6 +82,14 @@ double flagged_share(const LineSet& lines, const LineRange& r, int flags) {
   return static_cast<double>(flagged) / static_cast<double>(r.size());
 }
 
+/// Whether a stretch can be bad at all: medians lie within what they are medians of.
+bool has_bad_point(const Trial& t, const LineSet& lines, const LineRange& r, double width) {
+  const double lit = 2.5 * kTopNoise * t.profile_noise;
+  for (std::size_t i = r.begin; i < r.end; ++i)
+    if (lines.points[i].width > width || static_cast<double>(t.w.measure.contrast[i]) < lit) return true;
+  return false;
+}
+
 /// The bad stretches of a line, those closer than `least_run` good points joined.
 void find_bad_stretches(Trial& t, const LineSet& lines, const LineRange& r, std::size_t least_run,
                         std::vector<BadStretch>& stretches) {
@@ -91,6 +99,7 @@ void find_bad_stretches(Trial& t, const LineSet& lines, const LineRange& r, std:
   const bool clipped_is_odd = flagged_share(lines, r, kStripeSaturated) < 0.25;
   const double clipped_spot_width = clipped_is_odd ? 0.5 * (width + spot_width) : spot_width;
   stretches.clear();
+  if (!has_bad_point(t, lines, r, std::min(clipped_spot_width, spot_width))) return;
   for (std::size_t i = r.begin; i < r.end; ++i) {
     const StripePoint &p = lines.points[i], &a = lines.points[i > r.begin ? i - 1 : i],
                       &b = lines.points[i + 1 < r.end ? i + 1 : i];
@@ -209,6 +218,8 @@ bool is_bright_enough(const Trial& t, const LineFacts& line, const Reference& re
   if (line.intensity < visible || line.mean_strength < 5 * strength_noise || share < t.options.min_contrast)
     return false;
   if (share > t.options.clear_contrast) return true;
+  // The weaker, the longer: dim edges are short.
+  if (line.length * share < t.options.clear_contrast * t.options.min_length * t.full_width) return false;
   const double ratio = line.width / reference.width;
   // Bridges and uneven flanks are rare on a stripe, frequent on stains and edges.
   return line.odd_share < 0.2 && ratio > 0.65 && ratio < 1.5;

@@ -43,7 +43,7 @@ void LocalFitter::start(std::size_t i, std::size_t reach) {
   origin_x_ = points_[i].x;
   origin_y_ = points_[i].y;
   for (std::size_t m = 0; m <= 2 * reach; ++m) {
-    const StripePoint& p = points_[i - reach + m];
+    const FitPoint& p = points_[i - reach + m];
     const double k = static_cast<double>(m) - static_cast<double>(reach);
     x_.add(k, p.x - origin_x_);
     y_.add(k, p.y - origin_y_);
@@ -54,7 +54,7 @@ void LocalFitter::start(std::size_t i, std::size_t reach) {
 void LocalFitter::slide_to(std::size_t i) {
   const auto l = static_cast<double>(reach_);
   for (; last_ < i; ++last_, ++slides_) {
-    const StripePoint &left = points_[last_ - reach_], &right = points_[last_ + 1 + reach_];
+    const FitPoint &left = points_[last_ - reach_], &right = points_[last_ + 1 + reach_];
     x_.slide(left.x - origin_x_, right.x - origin_x_, l);
     y_.slide(left.y - origin_y_, right.y - origin_y_, l);
   }
@@ -86,21 +86,14 @@ LocalFit LocalFitter::at(std::size_t i, std::size_t reach) {
   return fit;
 }
 
-void count_joined(std::span<const StripePoint> points, std::vector<float>& joined) {
-  joined.resize(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    joined[i] = 0;
-    if (i == 0 || ((points[i].flags | points[i - 1].flags) & kStripeBridged) != 0) continue;
-    const double dx = points[i].x - points[i - 1].x, dy = points[i].y - points[i - 1].y;
-    if (dx * dx + dy * dy < 4.0) joined[i] = joined[i - 1] + 1;
+std::size_t joined_end(std::span<const StripePoint> points, std::size_t begin) {
+  std::size_t end = begin + 1;
+  for (; end < points.size(); ++end) {
+    if (((points[end].flags | points[end - 1].flags) & kStripeBridged) != 0) break;
+    const double dx = points[end].x - points[end - 1].x, dy = points[end].y - points[end - 1].y;
+    if (dx * dx + dy * dy >= 4.0) break;
   }
-}
-
-std::size_t joined_reach(std::span<const float> joined, std::size_t i, std::size_t most) {
-  // The window's last point has to count all of it.
-  std::size_t reach = std::min({most, i, joined.size() - 1 - i});
-  while (reach > 0 && joined[i + reach] < static_cast<float>(2 * reach)) --reach;
-  return reach;
+  return end;
 }
 
 }  // namespace lightstripe

@@ -12,6 +12,10 @@
 
 namespace lightstripe {
 
+struct FitPoint {
+  double x = 0, y = 0;  ///< px
+};
+
 /// The parabola x(k), y(k) of the points i - reach ... i + reach by their number k = -reach ... reach.
 struct LocalFit {
   double x = 0, y = 0;                      ///< at the point itself, px
@@ -33,7 +37,7 @@ double local_fit_variance(std::size_t reach, double offset);
 /// Sums that slide along a line. Windows must lie inside `points`.
 class LocalFitter {
  public:
-  explicit LocalFitter(std::span<const StripePoint> points) : points_(points) {}
+  explicit LocalFitter(std::span<const FitPoint> points) : points_(points) {}
   /// The fit around point i; costs little where i follows the last i closely, at the same reach.
   LocalFit at(std::size_t i, std::size_t reach);
 
@@ -59,7 +63,7 @@ class LocalFitter {
   void start(std::size_t i, std::size_t reach);
   void slide_to(std::size_t i);
 
-  std::span<const StripePoint> points_;
+  std::span<const FitPoint> points_;
   std::size_t last_ = 0, reach_ = 0;  ///< reach_ = 0: no window yet
   std::size_t slides_ = 0;
   double origin_x_ = 0, origin_y_ = 0;  ///< subtracted, so that the sums keep their digits
@@ -67,10 +71,7 @@ class LocalFitter {
   Sums x_, y_;
 };
 
-/// For each point how many points before it join it without a gap or a bridge.
-void count_joined(std::span<const StripePoint> points, std::vector<float>& joined);
-
-/// The largest window of at most `most` points to both sides of point i that joins; 0 if there is none.
-std::size_t joined_reach(std::span<const float> joined, std::size_t i, std::size_t most);
+/// The end of the stretch of points that begins at `begin` and is joined without a gap or a bridge.
+std::size_t joined_end(std::span<const StripePoint> points, std::size_t begin);
 
 }  // namespace lightstripe

@@ -8,7 +8,6 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <vector>
 
 namespace lightstripe {
 namespace {
@@ -101,22 +100,45 @@ float settled(const RecursiveWeights& w) {
   return static_cast<float>(in / past);
 }
 
-/// out += sign * the backward part.
-void add_backward(const Image<float>& in, const RecursiveFilter& filter, Image<float>& out) {
-  const auto width = static_cast<std::size_t>(in.width);
-  std::array<std::vector<float>, kRecursiveOrder + 1> ring;
-  for (auto& row : ring) {
-    row.resize(width);
-    for (std::size_t x = 0; x < width; ++x) row[x] = in.row(in.height - 1)[x] * filter.settled_backward;
+/// Columns that are filtered together: their rows stay in the cache from the forward to the backward part.
+constexpr int kStrip = 128;
+
+/// The columns [first, first + width) of an image.
+struct Strip {
+  int first = 0;
+  std::size_t width = 0;
+};
+
+void filter_forward(const Image<float>& in, const RecursiveFilter& filter, const Strip& strip,
+                    Image<float>& out) {
+  std::array<float, kStrip> before{};
+  for (std::size_t x = 0; x < strip.width; ++x)
+    before[x] = in.row(0)[strip.first + static_cast<int>(x)] * filter.settled_forward;
+  for (int y = 0; y < in.height; ++y) {
+    const auto at = [&](int k) { return in.row(std::max(y - k, 0)) + strip.first; };
+    const auto past = [&](int k) -> const float* {
+      return y >= k ? out.row(y - k) + strip.first : before.data();
+    };
+    filter_row_recursively({at(0), at(1), at(2), at(3)}, {past(1), past(2), past(3), past(4)}, filter.forward,
+                           out.row(y) + strip.first, strip.width);
   }
+}
+
+/// out += sign * the backward part.
+void add_backward(const Image<float>& in, const RecursiveFilter& filter, const Strip& strip,
+                  Image<float>& out) {
+  std::array<std::array<float, kStrip>, kRecursiveOrder + 1> ring{};
+  for (auto& row : ring)
+    for (std::size_t x = 0; x < strip.width; ++x)
+      row[x] = in.row(in.height - 1)[strip.first + static_cast<int>(x)] * filter.settled_backward;
   for (int y = in.height - 1; y >= 0; --y) {
-    const auto at = [&](int k) { return in.row(std::min(y + k, in.height - 1)); };
+    const auto at = [&](int k) { return in.row(std::min(y + k, in.height - 1)) + strip.first; };
     const auto past = [&](int k) { return ring[static_cast<std::size_t>(y + k) % ring.size()].data(); };
     float* row = ring[static_cast<std::size_t>(y) % ring.size()].data();
     filter_row_recursively({at(1), at(2), at(3), at(4)}, {past(1), past(2), past(3), past(4)},
-                           filter.backward, row, width);
-    float* sum = out.row(y);
-    for (std::size_t x = 0; x < width; ++x) sum[x] += filter.sign * row[x];
+                           filter.backward, row, strip.width);
+    float* sum = out.row(y) + strip.first;
+    for (std::size_t x = 0; x < strip.width; ++x) sum[x] += filter.sign * row[x];
   }
 }
 
@@ -148,16 +170,11 @@ void filter_columns(const Image<float>& in, const RecursiveFilter& filter, Image
   out.width = in.width;
   out.height = in.height;
   out.pixels.resize(in.pixels.size());
-  const auto width = static_cast<std::size_t>(in.width);
-  std::vector<float> before(width);
-  for (std::size_t x = 0; x < width; ++x) before[x] = in.row(0)[x] * filter.settled_forward;
-  for (int y = 0; y < in.height; ++y) {
-    const auto at = [&](int k) { return in.row(std::max(y - k, 0)); };
-    const auto past = [&](int k) -> const float* { return y >= k ? out.row(y - k) : before.data(); };
-    filter_row_recursively({at(0), at(1), at(2), at(3)}, {past(1), past(2), past(3), past(4)}, filter.forward,
-                           out.row(y), width);
+  for (int x = 0; x < in.width; x += kStrip) {
+    const Strip strip{x, static_cast<std::size_t>(std::min(kStrip, in.width - x))};
+    filter_forward(in, filter, strip, out);
+    add_backward(in, filter, strip, out);
   }
-  add_backward(in, filter, out);
 }
 
 void transpose(const Image<float>& in, Image<float>& out) {

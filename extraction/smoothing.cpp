@@ -34,14 +34,18 @@ void smooth_segment(std::span<StripePoint> points, double sigma, SmoothingWorksp
   // Neighbouring points share their noise over 2 sqrt(pi) sigma.
   const double shared = std::max(1.0, 3.545 * sigma * steps / std::max(length, 1.0));
   w.current.clear();
-  for (const StripePoint& p : points) w.current.push_back({p.x, p.y, 1.0});
+  w.places.clear();
+  for (const StripePoint& p : points) {
+    w.current.push_back({p.x, p.y});
+    w.places.push_back({p.x, p.y});
+  }
   w.wider.resize(points.size());
   w.misfit.resize(points.size() + 1);
   double wanted = kNarrowest * sigma;
   for (int level = 0; level < kDoublings; ++level, wanted *= 2) {
     const std::size_t reach = std::min(static_cast<std::size_t>(wanted), (points.size() - 1) / 2);
     if (static_cast<double>(reach) < 0.75 * wanted) break;
-    LocalFitter fitter(points);
+    LocalFitter fitter(w.places);
     w.misfit[0] = 0;
     for (std::size_t i = 0; i < points.size(); ++i) {
       const Estimate e = w.wider[i] = estimate(fitter, i, reach, points.size(), shared);
@@ -72,10 +76,8 @@ void smooth_segment(std::span<StripePoint> points, double sigma, SmoothingWorksp
 void smooth_along_lines(const DerivativeKernels& kernels, LineSet& lines, SmoothingWorkspace& workspace) {
   for (const LineRange& r : lines.lines) {
     const std::span<StripePoint> line(lines.points.data() + r.begin, r.size());
-    count_joined(line, workspace.joined);
     for (std::size_t begin = 0; begin < line.size();) {
-      std::size_t end = begin + 1;
-      while (end < line.size() && workspace.joined[end] > 0) ++end;
+      const std::size_t end = joined_end(line, begin);
       if (end - begin > 2) smooth_segment(line.subspan(begin, end - begin), kernels.sigma, workspace);
       begin = end;
     }

@@ -8,6 +8,7 @@
 
 #include "extraction/kernels.h"
 #include "extraction/line_set.h"
+#include "extraction/local_fit.h"
 
 namespace lightstripe {
 
@@ -20,7 +21,7 @@ struct SmoothingWorkspace {
   };
   std::vector<Estimate> current, wider;
   std::vector<double> misfit;  ///< running sums of squared differences over their expectation
-  std::vector<float> joined;
+  std::vector<FitPoint> places;
 };
 
 /// Each point moves to the least-squares parabola through its neighbours along the line. The window grows by

@@ -34,7 +34,8 @@ std::vector<FitPoint> find_counterparts(const Section& section, const SectionPos
     p = R * p + pose.move.translation;
     const auto foot = reference.nearest(p);
     if (!foot || foot->beyond_end) continue;
-    out.push_back({p, foot->normal, foot->signed_distance, 0, reference.zone(*foot), static_cast<int>(i)});
+    out.push_back({p, foot->normal, foot->signed_distance, 0, reference.zone(*foot), section[i].weight,
+                   static_cast<int>(i)});
   }
   return out;
 }
@@ -49,7 +50,7 @@ void weigh(std::vector<FitPoint>& points, const ZoneMask& mask, double floor_mm,
       std::clamp(1.4826 * median_of(std::move(distances)), floor_mm, std::max(floor_mm, cap_mm));
   for (FitPoint& point : points) {
     const double t = std::abs(point.residual) / (4.685 * scale);
-    point.weight = allowed(mask, point.zone) && t < 1 ? (1 - t * t) * (1 - t * t) : 0.0;
+    point.weight = allowed(mask, point.zone) && t < 1 ? point.prior * (1 - t * t) * (1 - t * t) : 0.0;
   }
 }
 

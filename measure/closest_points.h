@@ -20,7 +20,8 @@ struct FitPoint {
   double residual = 0;  ///< signed distance, mm, + outside
   double weight = 0;
   Zone zone = Zone::kRunning;
-  int index = 0;  ///< in the section
+  double prior = 1;  ///< weight of the section's point
+  int index = 0;     ///< in the section
 };
 
 /// Points of the section with a counterpart within reach, all zones, weight 0. Every `step`-th point.

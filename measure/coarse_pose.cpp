@@ -20,7 +20,7 @@ struct Tried {
 };
 
 std::vector<Vector2d> thinned(const Section& section) {
-  constexpr std::size_t kPoints = 80;
+  constexpr std::size_t kPoints = 48;
   std::vector<Vector2d> out;
   const std::size_t step = std::max<std::size_t>(1, section.size() / kPoints);
   for (std::size_t i = step / 2; i < section.size(); i += step) out.push_back(section[i].position);
@@ -46,14 +46,17 @@ Vector2d anchor_of(const std::vector<Vector2d>& points, ObjectKind kind) {
   return {sum / std::max(count, 1.0), top};
 }
 
-double cost_of(const std::vector<Vector2d>& points, const Vector2d& shift, const ReferenceShape& reference) {
+/// Sum over the points; stops where it exceeds `limit`.
+double cost_of(const std::vector<Vector2d>& points, const Vector2d& shift, const ReferenceShape& reference,
+               double limit) {
   constexpr double kFarMm = 5;
   double sum = 0;
   for (const Vector2d& p : points) {
     const double d = std::min(kFarMm, reference.coarse_distance(p + shift));
     sum += d * d;
+    if (sum >= limit) break;
   }
-  return sum / static_cast<double>(points.size());
+  return sum;
 }
 
 struct Grid {
@@ -71,7 +74,7 @@ void try_shifts(const std::vector<Vector2d>& turned, bool mirrored, double angle
   for (double u = -grid.half_u; u <= grid.half_u; u += grid.step_u)
     for (double v = grid.low_v; v <= grid.high_v; v += grid.step_v) {
       const Vector2d shift = base + Vector2d(u, v);
-      const double cost = cost_of(turned, shift, reference);
+      const double cost = cost_of(turned, shift, reference, best.cost);
       if (cost < best.cost) best = {{mirrored, {angle_rad, shift}}, cost};
     }
   tried.push_back(best);

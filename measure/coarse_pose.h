@@ -27,7 +27,7 @@ struct CoarsePoseOptions {
   int candidates = 3;  ///< how many poses are handed on
 };
 
-/// The best poses, best first, apart from each other. The cost is the mean of min(d, 5)^2 over some eighty
+/// The best poses, best first, apart from each other. The cost is the sum of min(d, 5)^2 over some fifty
 /// points. Needs three points.
 std::vector<SectionPose> coarse_poses(const Section& section, const ReferenceShape& reference,
                                       const CoarsePoseOptions& options);

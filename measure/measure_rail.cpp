@@ -35,17 +35,19 @@ Estimate corner_wear(const PlacedSection& placed, int side) {
   return wear_of(fit_surface(placed, {corner, outwards, -2, 2, 16, 2}), placed.registration, "gauge corner");
 }
 
-/// A head face at a height. Its line is carried up from some way below: at the gauge point the stripe begins
-/// to bend into the corner, and the images of sharp bends are drawn inwards a little. A face that is no
-/// straight line against the reference's is taken where it is asked for.
+/// A head face at a height. At the gauge point the stripe begins to bend into the corner, and sharp bends are
+/// seen a hundredth of a millimetre too far inside; so the straight face below is carried up, unless what is
+/// seen at the height itself contradicts it.
 SurfaceFit fit_face(const PlacedSection& placed, int side, double v) {
-  constexpr double kBelowMm = 8, kAboveMm = 1.0, kReachMm = 60, kStraightMm = 0.02;
+  constexpr double kLowestMm = 8.5, kHighestMm = 1.5, kReachMm = 60, kStraightMm = 0.02, kAgreesMm = 0.03;
   const Vector2d outwards(side, 0);
-  SurfaceProbe probe{{0, v}, outwards, -kBelowMm, kAboveMm, kReachMm, 1};
-  if (side < 0) probe.from_mm = -kAboveMm, probe.to_mm = kBelowMm;
-  const SurfaceFit straight = fit_surface(placed, probe);
-  if (straight.known() && straight.rms_mm < kStraightMm) return straight;
-  return fit_surface(placed, {{0, v}, outwards, -kAboveMm, kAboveMm, kReachMm, 2});
+  const SurfaceFit here = fit_surface(placed, {{0, v}, outwards, -1.5, 1.5, kReachMm, 2});
+  SurfaceProbe below{{0, v}, outwards, -kLowestMm, -kHighestMm, kReachMm, 1, true};
+  if (side < 0) below.from_mm = kHighestMm, below.to_mm = kLowestMm;
+  const SurfaceFit carried = fit_surface(placed, below);
+  const bool agrees = here.known() && carried.known() && carried.rms_mm < kStraightMm &&
+                      std::abs(carried.wear_mm - here.wear_mm) < kAgreesMm;
+  return agrees ? carried : here;
 }
 
 Estimate width_of(const PlacedSection& placed, double depth_v) {
@@ -63,9 +65,10 @@ Estimate face_angle(const PlacedSection& placed, int side, double gauge_v) {
   const double middle = (gauge_v + lowest) / 2;
   std::vector<Sample1> face;
   double first = 1e300, last = -1e300;
-  for (const Vector2d& p : placed.points) {
+  for (std::size_t i = 0; i < placed.points.size(); ++i) {
+    const Vector2d& p = placed.points[i];
     if (p.x() * side < 20 || p.y() > gauge_v - 0.5 || p.y() < lowest) continue;
-    face.push_back({p.y() - middle, p.x() * side});
+    face.push_back({p.y() - middle, p.x() * side, placed.section[i].weight});
     first = std::min(first, p.y()), last = std::max(last, p.y());
   }
   const auto fit = fit_polynomial(face, 1, 0.005);
@@ -83,8 +86,11 @@ Estimate crown_radius(const PlacedSection& placed, const HeadTop& top) {
   constexpr double kHalfWidthMm = 10, kFlattestMm = 5000;
   if (!top.reason.empty()) return Estimate::unknown(top.reason);
   std::vector<Sample1> crown;
-  for (const Vector2d& p : placed.points)
-    if (std::abs(p.x()) < kHalfWidthMm && std::abs(p.y() - top.v) < 2) crown.push_back({p.x(), p.y()});
+  for (std::size_t i = 0; i < placed.points.size(); ++i) {
+    const Vector2d& p = placed.points[i];
+    if (std::abs(p.x()) < kHalfWidthMm && std::abs(p.y() - top.v) < 2)
+      crown.push_back({p.x(), p.y(), placed.section[i].weight});
+  }
   const auto fit = fit_polynomial(crown, 2, 0.005);
   if (!fit || crown.size() < 12) return Estimate::unknown("crown not seen");
   if (fit->curvature > -1 / kFlattestMm) return Estimate::unknown("crown is flat or hollow");

@@ -73,15 +73,19 @@ Tip find_tip(const PlacedSection& placed) {
       highest = &p;
   if (!highest) return {{"flange tip not seen", 0, 0}, 0};
   std::vector<Sample1> samples;
-  bool left = false, right = false;
   for (const Vector2d& p : placed.points)
-    if (std::abs(p.x() - highest->x()) < kHalfWidthMm && highest->y() - p.y() < 2) {
+    if (std::abs(p.x() - highest->x()) < kHalfWidthMm && highest->y() - p.y() < 2)
       samples.push_back({p.x() - highest->x(), p.y() - highest->y()});
-      (p.x() < highest->x() - 0.5 ? left : right) = true;
-    }
   const auto fit = fit_polynomial(samples, 2, kMinScaleMm);
-  if (!left || !right || !fit || fit->curvature >= 0) return {{"flange tip not seen", 0, 0}, 0};
-  const double vertex = std::clamp(-fit->slope / fit->curvature, -kHalfWidthMm, kHalfWidthMm);
+  if (!fit || fit->curvature >= 0) return {{"flange tip not seen", 0, 0}, 0};
+  const double vertex = -fit->slope / fit->curvature;
+  // The top lies between points on its either side, else the section ends before it.
+  constexpr double kBesideMm = 0.8;
+  const auto left = [&](const Sample1& s) { return s.t < vertex - kBesideMm; };
+  const auto right = [&](const Sample1& s) { return s.t > vertex + kBesideMm; };
+  if (std::count_if(samples.begin(), samples.end(), left) < 2 ||
+      std::count_if(samples.begin(), samples.end(), right) < 2)
+    return {{"flange tip not seen", 0, 0}, 0};
   Tip tip{place_from(fit, highest->y(), placed.registration, "flange tip"), highest->x() + vertex};
   tip.height.value += fit->slope * vertex + fit->curvature * vertex * vertex / 2;
   return tip;

@@ -26,10 +26,10 @@ void visit_fields(V&& v, WheelOptions& o) {
 
 /// What the section's own coordinates mean.
 struct WheelSectionKind {
-  bool radial = false;                     ///< v is the radius
+  bool radial = false;                          ///< v is the radius
   std::optional<double> radius_offset_mm = {};  ///< an aligned file: radius at the datum where its v is 0
   std::optional<double> axis_sigma_mm = {};     ///< 1-sigma of the axis' distance, from the rig's calibration
-  bool back_is_given = false;              ///< an aligned file: the wheel's back is where its frame says
+  bool back_is_given = false;                   ///< an aligned file: the wheel's back is where its frame says
 };
 
 struct WheelMeasurement {

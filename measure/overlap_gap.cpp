@@ -13,7 +13,7 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kStripMm = 1.0, kHalfWidthMm = 30, kDepthMm = 12;
+constexpr double kStripMm = 1.0, kHalfWidthMm = 30, kDepthMm = 12, kTrusted = 0.1;
 
 /// Per strip of the top: the median height over the reference, so that the outline's slope takes no part.
 std::map<int, double> heights_of(const PlacedSection& placed, int sensor) {
@@ -21,7 +21,9 @@ std::map<int, double> heights_of(const PlacedSection& placed, int sensor) {
   std::map<int, std::vector<double>> strips;
   for (std::size_t i = 0; i < placed.points.size(); ++i) {
     const Vector2d& p = placed.points[i];
-    if (placed.section[i].sensor != sensor || std::abs(p.x()) > kHalfWidthMm) continue;
+    if (placed.section[i].sensor != sensor || placed.section[i].weight < kTrusted ||
+        std::abs(p.x()) > kHalfWidthMm)
+      continue;
     const auto surface = placed.reference.surface_along({p.x(), 0}, {0, 1}, 0);
     if (surface && std::abs(p.y() - *surface) < kDepthMm)
       strips[static_cast<int>(std::floor(p.x() / kStripMm))].push_back(p.y() - *surface);

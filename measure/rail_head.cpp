@@ -18,13 +18,23 @@ constexpr double kMinScaleMm = 0.005;
 constexpr double kSectorRad = std::numbers::pi / 180;
 constexpr double kCentreDepthMm = 20;  // of the sectors' centre below the top
 
+/// Without the points that glare has spoilt.
+std::vector<Vector2d> trusted_points(const PlacedSection& placed) {
+  constexpr double kTrusted = 0.1;
+  std::vector<Vector2d> out;
+  for (std::size_t i = 0; i < placed.points.size(); ++i)
+    if (placed.section[i].weight > kTrusted) out.push_back(placed.points[i]);
+  return out;
+}
+
 /// Medians of the heights in strips of the head, where there are points.
 std::vector<Sample1> strip_heights(const PlacedSection& placed, double half_width_mm) {
   constexpr double kStripMm = 2, kDepthMm = 14;
+  const std::vector<Vector2d> trusted = trusted_points(placed);
   std::vector<Sample1> out;
   for (double u = -half_width_mm; u <= half_width_mm; u += kStripMm) {
     std::vector<double> heights;
-    for (const Vector2d& p : placed.points)
+    for (const Vector2d& p : trusted)
       if (std::abs(p.x() - u) < kStripMm / 2 && std::abs(p.y() - placed.reference.top_v()) < kDepthMm)
         heights.push_back(p.y());
     if (heights.size() >= 2) out.push_back({u, median_of(heights)});
@@ -83,7 +93,7 @@ HeadTop find_head_top(const PlacedSection& placed) {
     return top;
   }
   std::vector<Sample1> around;
-  for (const Vector2d& p : placed.points)
+  for (const Vector2d& p : trusted_points(placed))
     if (std::abs(p.x() - highest.t) < kAroundMm && std::abs(p.y() - highest.value) < 3)
       around.push_back({p.x() - highest.t, p.y() - highest.value});
   const auto fit = fit_polynomial(around, 2, kMinScaleMm);
@@ -107,7 +117,7 @@ Estimate head_area_loss(const PlacedSection& placed) {
   const int count = static_cast<int>(std::ceil((std::numbers::pi - 2 * lowest) / kSectorRad));
   const double width = (std::numbers::pi - 2 * lowest) / count;
   std::vector<Sector> sectors(static_cast<std::size_t>(count));
-  for (const Vector2d& p : placed.points) {
+  for (const Vector2d& p : trusted_points(placed)) {
     const Vector2d arm = p - centre;
     double angle = std::atan2(arm.y(), arm.x());
     if (angle < -std::numbers::pi / 2) angle += 2 * std::numbers::pi;
@@ -134,13 +144,13 @@ Estimate find_lip(const PlacedSection& placed, int side, double lip_mm) {
   constexpr double kBelowFaceMm = 4, kFewest = 3;
   const ReferenceShape& reference = placed.reference;
   std::vector<double> out_of_face;
-  for (const Vector2d& p : placed.points) {
+  for (const Vector2d& p : trusted_points(placed)) {
     if (p.x() * side < 0 || p.y() > reference.top_v() - 2 || p.y() < reference.head_bottom_v() - kBelowFaceMm)
       continue;
     const auto foot = reference.nearest(p);
     if (foot && foot->signed_distance > lip_mm) out_of_face.push_back(foot->signed_distance);
   }
-  if (static_cast<double>(out_of_face.size()) < kFewest) return Estimate::known(0, lip_mm / 2);
+  if (static_cast<double>(out_of_face.size()) < kFewest) return {0.0, std::nullopt, ""};
   std::sort(out_of_face.begin(), out_of_face.end());
   return Estimate::known(out_of_face[out_of_face.size() - 2],
                          placed.registration.rms_mm);  // not the one farthest

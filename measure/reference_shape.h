@@ -50,10 +50,15 @@ class ReferenceShape {
 
   /// Within kReachMm of the outline.
   static constexpr double kReachMm = 6.0;
-  std::optional<PolylineFoot> nearest(const Eigen::Vector2d& p) const { return search_.nearest(p); }
+  /// The foot on the outline's polyline, by a map of nearest vertices and a walk from there: where two parts
+  /// of the outline are equally near (within a millimetre) it may be either's.
+  std::optional<PolylineFoot> nearest(const Eigen::Vector2d& p) const;
   Zone zone(const PolylineFoot& foot) const { return zones_[static_cast<std::size_t>(foot.segment)]; }
   /// Distance to the outline within about a millimetre, cut off at 20.
-  double coarse_distance(const Eigen::Vector2d& p) const;
+  double coarse_distance(const Eigen::Vector2d& p) const {
+    const std::ptrdiff_t cell = cell_of(p);
+    return cell < 0 ? kFarthestMm : static_cast<double>(distances_[static_cast<std::size_t>(cell)]);
+  }
 
   /// Where a ray from outside first meets the outline: the coordinate along `outwards` (unit) from `origin`,
   /// on the line that runs `across_mm` to the left of it. Nothing where the ray misses.
@@ -61,20 +66,32 @@ class ReferenceShape {
                                       double across_mm) const;
 
  private:
+  static constexpr double kCellMm = 1.0;       // of the map
+  static constexpr double kFarthestMm = 20.0;  // distances are cut off here
+
   void find_landmarks();
   Zone zone_at(const Eigen::Vector2d& p) const;
-  void fill_distances();
+  void fill_map();
+  void propagate(int column, int row, int from_column, int from_row);
+  std::size_t cell_index(int column, int row) const;
+  /// The cell that a point lies in; -1 outside the map.
+  std::ptrdiff_t cell_of(const Eigen::Vector2d& p) const {
+    const double column = (p.x() - corner_.x()) / kCellMm, row = (p.y() - corner_.y()) / kCellMm;
+    if (!(column >= 0 && row >= 0 && column < columns_ && row < rows_)) return -1;
+    return static_cast<std::ptrdiff_t>(row) * columns_ + static_cast<std::ptrdiff_t>(column);
+  }
+  PolylineFoot foot_on(std::size_t segment, const Eigen::Vector2d& p) const;
 
   std::string name_;
   ObjectKind kind_;
   Outline outline_;
   std::vector<Eigen::Vector2d> vertices_;
-  PolylineSearch search_;
   std::vector<Zone> zones_;  // of each segment of the polyline
   double top_u_ = 0, top_v_ = 0, bottom_v_ = 0;
-  Eigen::Vector2d corner_ = Eigen::Vector2d::Zero();  // of the distance grid
+  Eigen::Vector2d corner_ = Eigen::Vector2d::Zero();  // of the map
   int columns_ = 0, rows_ = 0;
-  std::vector<float> distances_;
+  std::vector<float> distances_;  // from each cell's middle, cut off
+  std::vector<int> nearest_;      // vertex, -1: too far
 };
 
 /// The chain through a section's points in their order (a MiniProf recording); points closer together than

@@ -11,6 +11,7 @@
 
 #include "measure/closest_points.h"
 #include "measure/correlation.h"
+#include "measure/robust_line.h"
 
 namespace lightstripe {
 namespace {
@@ -45,15 +46,22 @@ struct Fit {
 /// Iterates closest points until the pose rests; `cap_mm` bounds the scale of the first round and halves.
 void iterate(const Section& section, const ReferenceShape& reference, const ZoneMask& mask, bool upright,
              int step, int rounds, double cap_mm, double floor_mm, Fit& fit) {
-  constexpr double kRestsMm = 1e-5;
+  constexpr double kRestsMm = 1e-4, kWidestScaleMm = 0.15;
   for (int round = 0; round < rounds; ++round) {
     fit.points = find_counterparts(section, fit.pose, reference, step);
     weigh(fit.points, mask, floor_mm, cap_mm);
-    cap_mm = std::max(cap_mm / 2, floor_mm * 4);
+    cap_mm = std::max(cap_mm / 2, kWidestScaleMm);
     if (apply_step(normal_equations(fit.points), upright, fit.pose) < kRestsMm) break;
   }
   fit.points = find_counterparts(section, fit.pose, reference, step);
   weigh(fit.points, mask, floor_mm, cap_mm);
+}
+
+/// On every third point until the pose rests, then on all.
+void settle(const Section& section, const ReferenceShape& reference, const ZoneMask& mask, bool upright,
+            const RegistrationOptions& options, Fit& fit) {
+  iterate(section, reference, mask, upright, 3, 6, 0.2, options.noise_floor_mm, fit);
+  iterate(section, reference, mask, upright, 1, 3, 0.2, options.noise_floor_mm, fit);
 }
 
 /// How badly the section lies: mean of min(distance, 1 mm)^2, points out of reach count in full.
@@ -75,11 +83,12 @@ Fit start(const Section& section, const ReferenceShape& reference, const Section
   double best_badness = 1e300;
   for (const SectionPose& pose : coarse_poses(section, reference, coarse)) {
     Fit fit{pose, {}};
-    iterate(section, reference, all_zones(), prior.upright, step, 8, 2.0, 0.1, fit);
-    iterate(section, reference, unworn_zones(reference.kind()), prior.upright, step, 5, 0.5, 0.02, fit);
-    const double bad = badness(fit, section.size() / static_cast<std::size_t>(step));
+    iterate(section, reference, all_zones(), prior.upright, 2 * step, 6, 2.0, 0.1, fit);
+    const double bad = badness(fit, section.size() / static_cast<std::size_t>(2 * step));
     if (bad < best_badness) best_badness = bad, best = std::move(fit);
   }
+  iterate(section, reference, all_zones(), prior.upright, step, 3, 0.5, 0.1, best);
+  iterate(section, reference, unworn_zones(reference.kind()), prior.upright, step, 5, 0.5, 0.02, best);
   return best;
 }
 
@@ -125,7 +134,7 @@ void describe(const Section& section, const Fit& fit, bool upright, Registration
   out.rms_mm = equations.weight > 0 ? std::sqrt(equations.squares / equations.weight) : 0.0;
   out.correlated_points = correlated_points(section, fit.points);
   out.stretch_error_mm = stretch_error_mm(section, fit.points);
-  const double variance = out.rms_mm * out.rms_mm * out.correlated_points;
+  const double variance = kTukeyVariance * out.rms_mm * out.rms_mm * out.correlated_points;
   out.covariance.setZero();
   if (upright) {
     if (equations.H.bottomRightCorner<2, 2>().determinant() > 0)
@@ -139,7 +148,7 @@ void describe(const Section& section, const Fit& fit, bool upright, Registration
 void refine_rail(const Section& section, const ReferenceShape& reference, bool upright,
                  const RegistrationOptions& options, Fit& fit, Registration& out) {
   ZoneMask mask = mask_of({Zone::kBelowRight, Zone::kBelowLeft});
-  iterate(section, reference, mask, upright, 1, 6, 0.2, options.noise_floor_mm, fit);
+  settle(section, reference, mask, upright, options, fit);
   describe(section, fit, upright, out);
   bool grown = false;
   for (const Zone face : {Zone::kFaceRight, Zone::kFaceLeft}) {
@@ -148,7 +157,7 @@ void refine_rail(const Section& section, const ReferenceShape& reference, bool u
     mask[static_cast<std::size_t>(face)] = grown = true;
   }
   if (!grown) return;
-  iterate(section, reference, mask, upright, 1, 4, 0.2, options.noise_floor_mm, fit);
+  settle(section, reference, mask, upright, options, fit);
   describe(section, fit, upright, out);
 }
 
@@ -168,7 +177,7 @@ double fitting_share(const Fit& fit, ObjectKind kind) {
 
 std::string judged(const Fit& fit, const Registration& out, const ReferenceShape& reference,
                    const RegistrationOptions& options) {
-  if (out.view == RegistrationView::kHeadOnly)
+  if (out.view == RegistrationView::kHeadOnly && !options.on_head)
     return "head only: without web or foot the unworn rail's place is not known";
   if (out.num_points < options.min_fit_points)
     return fmt::format("only {} points on parts that do not wear, {} needed", out.num_points,
@@ -177,7 +186,7 @@ std::string judged(const Fit& fit, const Registration& out, const ReferenceShape
     return fmt::format("fit to {} is {:.2f} mm rms, limit {:.2f}", reference.name(), out.rms_mm,
                        options.max_fit_rms_mm);
   const double share = fitting_share(fit, reference.kind());
-  if (share < options.min_fit_share)
+  if (out.view != RegistrationView::kHeadOnly && share < options.min_fit_share)
     return fmt::format("only {:.0f} % of the unworn parts fit {}", 100 * share, reference.name());
   const Vector2d top(reference.top_u(), reference.top_v());
   const double sigma = std::max(out.sigma_of(top, {1, 0}), out.sigma_of(top, {0, 1}));
@@ -218,8 +227,8 @@ Registration register_section(const Section& section, const ReferenceShape& refe
   if (rail && out.view != RegistrationView::kHeadOnly) {
     refine_rail(section, reference, prior.upright, options, fit, out);
   } else {
-    iterate(section, reference, rail ? all_zones() : unworn_zones(reference.kind()), prior.upright, 1, 6, 0.2,
-            options.noise_floor_mm, fit);
+    settle(section, reference, rail ? all_zones() : unworn_zones(reference.kind()), prior.upright, options,
+           fit);
     describe(section, fit, prior.upright, out);
   }
   out.reason = judged(fit, out, reference, options);

@@ -28,6 +28,8 @@ struct RegistrationOptions {
   double min_fit_share = 0.5;       ///< of the points on parts that do not wear
   double max_place_sigma_mm = 0.2;  ///< predicted, at the top of the rail or the wheel's datum
   double max_tilt_deg = 9;
+  bool on_head = false;  ///< also where only a rail's head is seen: laid on by its whole shape, which is
+                         ///< no absolute wear
   double moved_face_mm = 0.01;    ///< a head face farther off than this, and than 3 sigma, has worn: left out
   double noise_floor_mm = 0.005;  ///< robust scale below which weights do not narrow further
 };
@@ -37,6 +39,8 @@ void visit_fields(V&& v, RegistrationOptions& o) {
   v("min_fit_points", o.min_fit_points, "fewer points on parts that do not wear: not registered");
   v("min_fit_share", o.min_fit_share, "share of the points there that must fit");
   v("max_place_sigma_mm", o.max_place_sigma_mm, "predicted, at the top of the rail");
+  v("on_head", o.on_head,
+    "registers a head seen without web and foot by its shape; its wear is not absolute");
   v("max_tilt_deg", o.max_tilt_deg, "how far a section may be turned against the reference");
   v("moved_face_mm", o.moved_face_mm, "a head face farther off than this and 3 sigma is left out as worn");
   v("noise_floor_mm", o.noise_floor_mm, "robust scale below which weights do not narrow further");

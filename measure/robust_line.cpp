@@ -15,6 +15,8 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+constexpr double kTrusted = 0.1;  // share of the largest weight
+
 struct Weighted {
   VectorXd c;
   MatrixXd H_inverse;
@@ -41,18 +43,32 @@ std::optional<Weighted> solve(const std::vector<Sample1>& samples, const std::ve
   return Weighted{lu.solve(g), lu.inverse()};
 }
 
-/// Weights of the next round; returns the scale.
-double reweight(const std::vector<Sample1>& samples, const VectorXd& c, double min_scale,
-                std::vector<double>& weights) {
+/// Robust scale of residuals of a fit of so many parameters: the median would let few points agree by chance
+/// (order statistic and small-sample factor of Rousseeuw and Leroy's least median of squares).
+double robust_scale(std::vector<double> residuals, int parameters) {
+  const auto n = static_cast<double>(residuals.size()), p = static_cast<double>(parameters);
+  const auto order = std::min(residuals.size() - 1, static_cast<std::size_t>((n + p + 1) / 2));
+  std::nth_element(residuals.begin(), residuals.begin() + static_cast<std::ptrdiff_t>(order),
+                   residuals.end());
+  return 1.4826 * (1 + 5 / std::max(1.0, n - p)) * residuals[order];
+}
+
+/// Weights of the next round.
+void reweight(const std::vector<Sample1>& samples, const VectorXd& c, double min_scale,
+              std::vector<double>& weights) {
   const int degree = static_cast<int>(c.size()) - 1;
   std::vector<double> residuals;
   for (const Sample1& s : samples) residuals.push_back(std::abs(s.value - c.dot(powers(s.t, degree))));
-  const double scale = std::max(min_scale, 1.4826 * median_of(residuals));
+  double heaviest = 0;
+  for (const Sample1& s : samples) heaviest = std::max(heaviest, s.weight);
+  std::vector<double> trusted;
+  for (std::size_t i = 0; i < samples.size(); ++i)
+    if (samples[i].weight > kTrusted * heaviest) trusted.push_back(residuals[i]);
+  const double scale = std::max(min_scale, robust_scale(std::move(trusted), degree + 1));
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const double t = residuals[i] / (4.685 * scale);  // 95 % efficient for normal noise
-    weights[i] = t < 1 ? (1 - t * t) * (1 - t * t) : 0.0;
+    weights[i] = t < 1 ? samples[i].weight / heaviest * (1 - t * t) * (1 - t * t) : 0.0;
   }
-  return scale;
 }
 
 }  // namespace
@@ -67,12 +83,15 @@ double median_of(std::vector<double> values) {
 std::optional<PolynomialFit> fit_polynomial(const std::vector<Sample1>& samples, int degree,
                                             double min_scale) {
   constexpr int kRounds = 8;
-  constexpr double kCounts = 0.1;  // weight
   if (static_cast<int>(samples.size()) < degree + 3) return std::nullopt;
   std::vector<double> weights(samples.size(), 1.0);
   VectorXd start = VectorXd::Zero(degree + 1);  // the level first, so that a third of outliers cannot bend it
   std::vector<double> values;
-  for (const Sample1& s : samples) values.push_back(s.value);
+  double heaviest = 0;
+  for (const Sample1& s : samples) heaviest = std::max(heaviest, s.weight);
+  for (const Sample1& s : samples)
+    if (s.weight > kTrusted * heaviest) values.push_back(s.value);
+  if (values.empty()) return std::nullopt;
   start(0) = median_of(values);
   reweight(samples, start, min_scale, weights);
   std::optional<Weighted> fit;
@@ -85,16 +104,17 @@ std::optional<PolynomialFit> fit_polynomial(const std::vector<Sample1>& samples,
   out.value = fit->c(0);
   out.slope = degree > 0 ? fit->c(1) : 0.0;
   out.curvature = degree > 1 ? 2 * fit->c(2) : 0.0;
-  out.value_factor = fit->H_inverse(0, 0);
-  out.slope_factor = degree > 0 ? fit->H_inverse(1, 1) : 0.0;
   double squares = 0, sum = 0;
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const double r = samples[i].value - fit->c.dot(powers(samples[i].t, degree));
     squares += weights[i] * r * r, sum += weights[i];
-    out.num_samples += weights[i] > kCounts ? 1 : 0;
+    out.num_samples += weights[i] > kTrusted ? 1 : 0;
   }
   out.rms = std::sqrt(squares / std::max(sum, 1e-12));
   if (out.num_samples < degree + 3) return std::nullopt;
+  const double small_sample = out.num_samples / static_cast<double>(out.num_samples - degree - 1);
+  out.value_factor = kTukeyVariance * small_sample * fit->H_inverse(0, 0);
+  out.slope_factor = degree > 0 ? kTukeyVariance * small_sample * fit->H_inverse(1, 1) : 0.0;
   return out;
 }
 

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "measure/robust_line.h"
+
 namespace lightstripe {
 namespace {
 
@@ -25,6 +27,17 @@ std::vector<ProfilePoint> thinned(const std::vector<Profile>& profiles) {
   return out;
 }
 
+/// Full weight up to twice the median error, then by its square.
+void weigh_by_sigma(Section& section) {
+  std::vector<double> sigmas;
+  for (const SectionPoint& point : section) sigmas.push_back(point.sigma_mm);
+  if (sigmas.empty()) return;
+  const double usual = 2 * median_of(std::move(sigmas));
+  if (!(usual > 0)) return;
+  for (SectionPoint& point : section)
+    if (point.sigma_mm > usual) point.weight = usual * usual / (point.sigma_mm * point.sigma_mm);
+}
+
 }  // namespace
 
 Section section_of(const Profile& profile) {
@@ -34,9 +47,10 @@ Section section_of(const Profile& profile) {
   const ProfilePoint* last = nullptr;
   for (const ProfilePoint& point : profile.points) {
     if (!last || last->sensor != point.sensor || last->line != point.line) ++chain;
-    section.push_back({{point.u, point.v}, chain, point.sensor});
+    section.push_back({{point.u, point.v}, chain, point.sensor, point.sigma_mm, 1.0});
     last = &point;
   }
+  weigh_by_sigma(section);
   return section;
 }
 

@@ -12,8 +12,10 @@ namespace lightstripe {
 
 struct SectionPoint {
   Eigen::Vector2d position = Eigen::Vector2d::Zero();  ///< u, v, mm
-  int chain = 0;   ///< points of one stripe of one sensor, in order along it, share this number
-  int sensor = 0;  ///< who saw it
+  int chain = 0;        ///< points of one stripe of one sensor, in order along it, share this number
+  int sensor = 0;       ///< who saw it
+  double sigma_mm = 0;  ///< predicted 1-sigma error, 0: not known
+  double weight = 1;    ///< below 1 where the predicted error is far above the section's usual one (glare)
 };
 
 using Section = std::vector<SectionPoint>;

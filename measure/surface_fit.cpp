@@ -25,7 +25,7 @@ std::string hole_in(std::vector<Sample1> samples, const SurfaceProbe& probe) {
   constexpr std::size_t kFewest = 6;
   if (samples.size() < kFewest) return samples.empty() ? "not seen" : "too few points";
   std::sort(samples.begin(), samples.end(), [](const Sample1& a, const Sample1& b) { return a.t < b.t; });
-  if (samples.front().t > 0 || samples.back().t < 0) return "seen on one side only";
+  if (!probe.carried && (samples.front().t > 0 || samples.back().t < 0)) return "seen on one side only";
   const double widest = (probe.to_mm - probe.from_mm) / 2;
   double last = probe.from_mm;
   for (const Sample1& s : samples) {
@@ -33,6 +33,24 @@ std::string hole_in(std::vector<Sample1> samples, const SurfaceProbe& probe) {
     last = s.t;
   }
   return probe.to_mm - last > widest ? "hole in the section" : "";
+}
+
+/// The best quarter of the points' own predicted errors in the probe: glare over all of it is an error that
+/// its points share.
+double predicted_error(const PlacedSection& placed, const SurfaceProbe& probe) {
+  const Vector2d left(-probe.outwards.y(), probe.outwards.x());
+  std::vector<double> sigmas;
+  for (std::size_t i = 0; i < placed.points.size(); ++i) {
+    const Vector2d arm = placed.points[i] - probe.origin;
+    const double across = arm.dot(left);
+    if (across >= probe.from_mm && across <= probe.to_mm &&
+        std::abs(arm.dot(probe.outwards)) <= probe.reach_mm)
+      sigmas.push_back(placed.section[i].sigma_mm);
+  }
+  if (sigmas.empty()) return 0;
+  const auto quarter = sigmas.begin() + static_cast<std::ptrdiff_t>(sigmas.size() / 4);
+  std::nth_element(sigmas.begin(), quarter, sigmas.end());
+  return *quarter;
 }
 
 }  // namespace
@@ -51,13 +69,14 @@ SurfaceFit fit_surface(const PlacedSection& placed, const SurfaceProbe& probe) {
   SurfaceFit out;
   const Vector2d left(-probe.outwards.y(), probe.outwards.x());
   std::vector<Sample1> differences;
-  for (const Vector2d& p : placed.points) {
+  for (std::size_t i = 0; i < placed.points.size(); ++i) {
+    const Vector2d& p = placed.points[i];
     const Vector2d from_origin = p - probe.origin;
     const double across = from_origin.dot(left), along = from_origin.dot(probe.outwards);
     if (across < probe.from_mm || across > probe.to_mm || std::abs(along) > probe.reach_mm) continue;
     const auto surface = placed.reference.surface_along(probe.origin, probe.outwards, across);
     if (surface && std::abs(*surface - along) < kMostWearMm)
-      differences.push_back({across, *surface - along});
+      differences.push_back({across, *surface - along, placed.section[i].weight});
   }
   out.reason = hole_in(differences, probe);
   const auto here = placed.reference.surface_along(probe.origin, probe.outwards, 0);
@@ -75,8 +94,8 @@ SurfaceFit fit_surface(const PlacedSection& placed, const SurfaceProbe& probe) {
   out.slope = (*after - *before) / (2 * kDerivativeMm) - fit->slope;
   out.rms_mm = fit->rms;
   out.num_points = fit->num_samples;
-  out.local_sigma_mm =
-      std::hypot(fit->rms * std::sqrt(fit->value_factor), placed.registration.stretch_error_mm);
+  const double stretch = std::max(placed.registration.stretch_error_mm, predicted_error(placed, probe));
+  out.local_sigma_mm = std::hypot(fit->rms * std::sqrt(fit->value_factor), stretch);
   out.place = probe.origin + out.along_mm * probe.outwards;
   out.response = probe.outwards - out.slope * left;
   return out;

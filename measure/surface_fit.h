@@ -28,7 +28,8 @@ struct SurfaceProbe {
   Eigen::Vector2d outwards = Eigen::Vector2d::UnitY();
   double from_mm = -1.5, to_mm = 1.5;
   double reach_mm = 16;
-  int degree = 2;  ///< of the polynomial of the difference to the reference
+  int degree = 2;        ///< of the polynomial of the difference to the reference
+  bool carried = false;  ///< the points lie aside; the polynomial is carried to the origin
 };
 
 struct SurfaceFit {

@@ -10,6 +10,7 @@
 
 #include "core/error.h"
 #include "core/random.h"
+#include "simulate/scene_world.h"
 
 namespace lightstripe {
 namespace {
@@ -118,7 +119,7 @@ bool usable(const Scene& scene, const std::vector<SimulatedSensor>& sensors, con
             bool cut_off) {
   const Target target = target_of(scene.boards);
   for (const SimulatedSensor& sensor : sensors) {
-    const View view{&sensor, Vector3d::Zero(), 0, 0};
+    const View view{&sensor, {}, 0, 0};
     const bool framed = cut_off && &sensor == &sensors.front()
                             ? cut_by_image(view, target, pose)
                             : whole_in_view(view, target, pose, scene.boards.margin_px);
@@ -129,7 +130,7 @@ bool usable(const Scene& scene, const std::vector<SimulatedSensor>& sensors, con
 
 bool usable_in_motion(const Scene& scene, const SimulatedSensor& sensor, const Rigid3& pose) {
   for (int i = 0; i < scene.motion.positions; ++i) {
-    const View view{&sensor, shift_at(scene, i * scene.motion.step_mm), 0, 0};
+    const View view{&sensor, moved_in_motion(scene, i), 0, 0};
     const Target target = target_of(scene.boards);
     if (!whole_in_view(view, target, pose, scene.boards.margin_px) || !seen_well(view, target, pose))
       return false;
@@ -152,8 +153,29 @@ BoardSurface make_board(const BoardPlan& plan, const Rigid3& world_from_board) {
   return {world_from_board, target_of(plan), plan.quiet_border_mm, plan.white_albedo, plan.black_albedo};
 }
 
-Vector3d shift_at(const Scene& scene, double travel_mm) {
-  return (scene.motion.moves == Moves::kRig ? travel_mm : -travel_mm) * Vector3d::UnitX();
+Rigid3 moved_at(const Scene& scene, double travel) {
+  const double signed_travel = scene.motion.moves == Moves::kRig ? travel : -travel;
+  if (!scene.turns()) return {Eigen::Quaterniond::Identity(), signed_travel * Vector3d::UnitX()};
+  const Eigen::Quaterniond turn(Eigen::AngleAxisd(signed_travel * kDegree, turning_axis(scene)));
+  return {turn, scene.wheel.center - turn * scene.wheel.center};
+}
+
+Rigid3 moved_in_motion(const Scene& scene, int position) {
+  return moved_at(scene, position * (scene.turns() ? scene.motion.step_deg : scene.motion.step_mm));
+}
+
+Rigid3 moved_in_scan(const Scene& scene, int frame) {
+  Rigid3 moved = moved_at(scene, travel_of(scene, frame));
+  if (!scene.has_poses()) return moved;
+  // Three periods without a common measure: no frame repeats another, and frame 0 stands where travel 0 is.
+  const auto sway = [frame](double periods) { return std::sin(2 * std::numbers::pi * frame / periods); };
+  const Vector3d turned = scene.scan.sway_deg * kDegree * Vector3d(sway(17.3), sway(23.9), sway(31.7));
+  const double angle = turned.norm();
+  if (angle > 0) moved.rotation = Eigen::Quaterniond(Eigen::AngleAxisd(angle, turned / angle));
+  const Vector3d middle = scene.boards.center;  // turns about what it looks at
+  moved.translation +=
+      middle - moved.rotation * middle + scene.scan.sway_mm * Vector3d(0, sway(19.1), sway(27.7));
+  return moved;
 }
 
 std::size_t motion_sensor(const Scene& scene) {
@@ -182,7 +204,9 @@ Rigid3 draw_motion_board(const Scene& scene, const std::vector<SimulatedSensor>&
   const SimulatedSensor& sensor = sensors[motion_sensor(scene)];
   Random random(static_cast<std::uint64_t>(scene.seed), kPoseStream - 1);
   BoardPlan plan = scene.boards;
-  plan.center += 0.5 * shift_at(scene, (scene.motion.positions - 1) * scene.motion.step_mm);
+  const double last =
+      (scene.motion.positions - 1) * (scene.turns() ? scene.motion.step_deg : scene.motion.step_mm);
+  plan.center = moved_at(scene, 0.5 * last) * plan.center;
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
     Rigid3 pose = draw(plan, {&sensor, 1}, attempt * kGoldenAngle, random);
     if (usable_in_motion(scene, sensor, pose)) return pose;

@@ -27,7 +27,12 @@ Rigid3 draw_motion_board(const Scene& scene, const std::vector<SimulatedSensor>&
 /// Index of the sensor that watches the motion calibration.
 std::size_t motion_sensor(const Scene& scene);
 
-/// How far the sensors stand from where they were at travel 0, mm, world.
-Eigen::Vector3d shift_at(const Scene& scene, double travel_mm);
+/// How the sensors have moved from where they stood at travel 0, as the object sees it: mm along x or degrees
+/// about the wheel's axis. World frame at travel 0.
+Rigid3 moved_at(const Scene& scene, double travel);
+/// The same at a position of the motion calibration.
+Rigid3 moved_in_motion(const Scene& scene, int position);
+/// The same in a frame of the scan; a rig led by hand sways besides.
+Rigid3 moved_in_scan(const Scene& scene, int frame);
 
 }  // namespace lightstripe

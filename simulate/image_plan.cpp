@@ -27,9 +27,8 @@ void plan_boards(const Scene& scene, ImagePlan& plan) {
   plan.board_poses = draw_board_poses(scene, plan.sensors);
   const bool pair = scene.boards.images == BoardImages::kPair;
   const Imaging& light = scene.imaging;
-  const View unlit{nullptr, {0, 0, 0}, light.board_ambient, 0},
-      lit{nullptr, {0, 0, 0}, light.laser_ambient, 1};
-  const View both{nullptr, {0, 0, 0}, light.single_ambient, light.single_laser};
+  const View unlit{nullptr, {}, light.board_ambient, 0}, lit{nullptr, {}, light.laser_ambient, 1};
+  const View both{nullptr, {}, light.single_ambient, light.single_laser};
   for (int i = 0; i < scene.boards.count; ++i) {
     plan.worlds.push_back(with_board(scene.boards, plan.board_poses[static_cast<std::size_t>(i)]));
     for (std::size_t s = 0; s < plan.sensors.size(); ++s) {
@@ -46,7 +45,7 @@ void plan_motion(const Scene& scene, ImagePlan& plan) {
   plan.worlds.push_back(with_board(scene.boards, plan.motion_board.front()));
   const std::size_t sensor = motion_sensor(scene);
   for (int i = 0; i < scene.motion.positions; ++i) {
-    const View view{nullptr, shift_at(scene, i * scene.motion.step_mm), scene.imaging.board_ambient, 0};
+    const View view{nullptr, moved_in_motion(scene, i), scene.imaging.board_ambient, 0};
     add_image(plan, "calib/" + plan.sensors[sensor].name + "/travel/" + board_file(i), sensor, view, -1);
   }
 }
@@ -54,8 +53,8 @@ void plan_motion(const Scene& scene, ImagePlan& plan) {
 void plan_scan(const Scene& scene, ImagePlan& plan) {
   plan.still_scan = same_in_all_frames(scene);
   for (int i = 0; i < scene.scan.frames; ++i) {
-    if (i == 0 || !plan.still_scan) plan.worlds.push_back(scan_world(scene, plan.nominal_rail, i));
-    const View view{nullptr, shift_at(scene, travel_of(scene, i)), scene.imaging.scan_ambient, 1};
+    if (i == 0 || !plan.still_scan) plan.worlds.push_back(scan_world(scene, plan.nominal, i));
+    const View view{nullptr, moved_in_scan(scene, i), scene.imaging.scan_ambient, 1};
     for (std::size_t s = 0; s < plan.sensors.size(); ++s)
       add_image(plan, "scan/" + plan.sensors[s].name + "/" + frame_file(i), s, view, i);
   }
@@ -69,7 +68,8 @@ std::string frame_file(int number) { return fmt::format("{:04}.png", number); }
 ImagePlan plan_images(const Scene& scene) {
   ImagePlan plan;
   plan.sensors = make_sensors(scene);
-  if (scene.rail.present()) plan.nominal_rail = read_nominal(scene.rail.profile);
+  if (scene.rail.present()) plan.nominal = read_nominal(scene.rail.profile);
+  if (scene.wheel.present()) plan.nominal = read_nominal(scene.wheel.profile);
   plan_boards(scene, plan);
   plan_motion(scene, plan);
   plan_scan(scene, plan);

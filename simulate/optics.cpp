@@ -31,6 +31,14 @@ Camera make_camera(const SceneSensor& sensor) {
   return camera;
 }
 
+/// The point of the axis nearest to the rig's origin stands for it.
+void add_turning(const Scene& scene, const Rigid3& rig_from_world, Motion& motion) {
+  motion.type = MotionType::kRotary;
+  motion.axis_direction = rig_from_world.rotation * turning_axis(scene);
+  const Vector3d center = rig_from_world * scene.wheel.center;
+  motion.axis_point = center - motion.axis_direction * motion.axis_direction.dot(center);
+}
+
 }  // namespace
 
 SimulatedSensor make_sensor(const SceneSensor& from) {
@@ -68,7 +76,7 @@ Rig true_rig(const Scene& scene, const std::vector<SimulatedSensor>& sensors) {
         sensor.sheet, camera_from_world.rotation.toRotationMatrix(), camera_from_world.translation)));
   }
   const Rigid3 first_from_world = sensors.front().world_from_camera.inverse();
-  const bool moves = scene.motion.positions > 0;
+  const bool moves = scene.motion.positions > 0 && !scene.turns();
   // d > 0: the canonical normal looks away from the camera.
   const Vector3d x =
       moves ? first_from_world.rotation * Vector3d::UnitX() : rig.sensors.front().laser_planes.front().normal;
@@ -78,7 +86,16 @@ Rig true_rig(const Scene& scene, const std::vector<SimulatedSensor>& sensors) {
   rig.sensors.front().rig_from_camera.translation.setZero();
   rig.motion.type = moves ? MotionType::kLinear : MotionType::kNone;
   rig.motion.rig_moves = scene.motion.moves == Moves::kRig;
+  if (scene.turns()) add_turning(scene, rig_from_world(rig, sensors), rig.motion);
   return rig;
+}
+
+Vector3d turning_axis(const Scene& scene) {
+  const SimulatedSensor first = make_sensor(scene.sensors.front());
+  const double away = first.sheet.signed_distance(first.world_from_camera.translation) > 0 ? -1 : 1;
+  const Vector3d y = Vector3d::UnitZ().cross(away * first.sheet.normal);
+  const Vector3d axis = scene.wheel.axis.normalized();
+  return axis.dot(y) < 0 ? Vector3d(-axis) : axis;
 }
 
 Rigid3 rig_from_world(const Rig& rig, const std::vector<SimulatedSensor>& sensors) {
@@ -111,7 +128,7 @@ Vector3d RayGrid::between(double x, double y) const {
 std::optional<Vector2d> pixel_of(const View& view, const Vector3d& p_world) {
   const Camera& camera = view.sensor->camera;
   std::optional<Vector2d> pixel =
-      project(camera, view.sensor->world_from_camera.inverse() * (p_world - view.shift));
+      project(camera, view.sensor->world_from_camera.inverse() * (view.moved.inverse() * p_world));
   if (!pixel || pixel->x() < 0 || pixel->y() < 0 || pixel->x() > camera.width - 1 ||
       pixel->y() > camera.height - 1)
     return std::nullopt;

@@ -33,6 +33,10 @@ std::vector<SimulatedSensor> make_sensors(const Scene& scene);
 Rig true_rig(const Scene& scene, const std::vector<SimulatedSensor>& sensors);
 Eigen::Vector3d up_hint(const SimulatedSensor& first);
 
+/// The unit direction of the axis that the scene's wheel turns about, world frame, turned so that u grows
+/// with the rig's y; positive angles are right-handed about it.
+Eigen::Vector3d turning_axis(const Scene& scene);
+
 /// rig_from_world at travel 0.
 Rigid3 rig_from_world(const Rig& rig, const std::vector<SimulatedSensor>& sensors);
 
@@ -54,14 +58,17 @@ struct RayGrid {
 
 RayGrid make_ray_grid(const SimulatedSensor& sensor, int margin);
 
-/// What one exposure sees: a sensor moved by `shift`, its lamp and its laser.
+/// What one exposure sees: a sensor moved from where it stood at travel 0, with its lamp and its laser.
 struct View {
   const SimulatedSensor* sensor = nullptr;
-  Eigen::Vector3d shift = Eigen::Vector3d::Zero();  ///< mm, world
-  double ambient = 0;                               ///< grey level of white that faces the lamp
-  double laser_power = 0;                           ///< share of the laser's brightness; 0 = off
+  Rigid3 moved;            ///< world from world at travel 0
+  double ambient = 0;      ///< grey level of white that faces the lamp
+  double laser_power = 0;  ///< share of the laser's brightness; 0 = off
 
-  Eigen::Vector3d eye() const { return sensor->world_from_camera.translation + shift; }
+  Eigen::Vector3d eye() const { return moved * sensor->world_from_camera.translation; }
+  Eigen::Vector3d source() const { return moved * sensor->source; }
+  /// The ray of a direction of the sensor at travel 0 (RayGrid).
+  Ray ray(const Eigen::Vector3d& direction) const { return {eye(), moved.rotation * direction}; }
 };
 
 /// Where a point of the world at travel 0 lies in the image; nothing outside it or behind the camera.

@@ -59,7 +59,7 @@ Image<float> render_centres(const World& world, const View& view, const RayGrid&
   Image<float> out(rays.width, rays.height);
   for (int y = 0; y < rays.height; ++y)
     for (int x = 0; x < rays.width; ++x)
-      out(x, y) = static_cast<float>(shade(world, view, imaging, {view.eye(), rays.at(x, y)}));
+      out(x, y) = static_cast<float>(shade(world, view, imaging, view.ray(rays.at(x, y))));
   return out;
 }
 
@@ -82,9 +82,7 @@ struct Eyepiece {
   const RayGrid& rays;
   const Imaging& imaging;
 
-  double level(double x, double y) const {
-    return shade(world, view, imaging, {view.eye(), rays.between(x, y)});
-  }
+  double level(double x, double y) const { return shade(world, view, imaging, view.ray(rays.between(x, y))); }
 
   /// Mean over the samples, and how far the means of every other four of them differ.
   std::pair<double, double> mean(const std::vector<Vector2d>& pattern, int x, int y) const {
@@ -116,15 +114,16 @@ Image<float> integrate_pixels(const Eyepiece& eye, const Image<float>& centres) 
 double laser_level(const World& world, const View& view, const Imaging& imaging, const Vector3d& p_world,
                    const SurfaceHit& hit) {
   const SimulatedSensor& sensor = *view.sensor;
-  const Vector3d p = p_world - view.shift;  // where the sensor's sheet stands at travel 0
+  const Vector3d p = view.moved.inverse() * p_world;  // where the sensor's sheet stands at travel 0
   const double off = sensor.sheet.signed_distance(p) / sensor.laser.thickness_sigma_mm;
   if (std::abs(off) > kSheetReach) return 0;
   const Vector3d to_source = sensor.source - p;
   const double distance = to_source.norm();
   const double angle = std::atan2(-to_source.dot(sensor.across), -to_source.dot(sensor.axis));
   const double fan = fan_profile(angle, sensor.laser.fan_deg / 2 * std::numbers::pi / 180);
-  const double level = reflected(hit, to_source / distance, (view.eye() - p_world).normalized());
-  if (fan == 0 || level == 0 || blocked(world, sensor.source + view.shift, p_world)) return 0;
+  const double level =
+      reflected(hit, view.moved.rotation * to_source / distance, (view.eye() - p_world).normalized());
+  if (fan == 0 || level == 0 || blocked(world, view.source(), p_world)) return 0;
   return imaging.exposure * view.laser_power * sensor.laser.brightness * fan * sensor.reference_mm /
          distance * std::exp(-0.5 * off * off) * level;
 }
@@ -133,7 +132,8 @@ double shade(const World& world, const View& view, const Imaging& imaging, const
   if (ray.direction.isZero()) return imaging.dark_level;  // beyond what the lens can see
   const std::optional<SurfaceHit> hit = first_hit(world, ray);
   if (!hit) return imaging.dark_level;
-  const double lamp = reflected(*hit, imaging.light.normalized(), -ray.direction.normalized());
+  const double lamp =
+      reflected(*hit, view.moved.rotation * imaging.light.normalized(), -ray.direction.normalized());
   const double ambient = view.ambient * (kAmbientFloor * hit->material.albedo + (1 - kAmbientFloor) * lamp);
   const double laser = view.laser_power > 0 ? laser_level(world, view, imaging, ray.at(hit->s), *hit) : 0;
   return imaging.dark_level + imaging.exposure * ambient + laser;

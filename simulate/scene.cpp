@@ -99,7 +99,9 @@ void check_boards(const BoardPlan& o, const Rules& rules) {
 void check_plans(const Scene& o, const Rules& rules) {
   const int positions = o.motion.positions;
   rules.require(positions == 0 || (positions >= 2 && positions <= 999), "motion.positions", "0, or 2 to 999");
-  rules.require(positions == 0 || o.motion.step_mm != 0, "motion.step_mm", "must not be 0");
+  rules.require(positions == 0 || o.turns() || o.motion.step_mm != 0, "motion.step_mm", "must not be 0");
+  rules.require(positions == 0 || !o.turns() || o.motion.step_deg != 0, "motion.step_deg", "must not be 0");
+  rules.require(!o.turns() || !o.has_poses(), "scan: sway", "goes with a rig that travels, not with a wheel");
   rules.require(o.scan.frames >= 0 && o.scan.frames <= 9999, "scan.frames", "0 to 9999");
   rules.require(o.scan.truth_spacing_mm > 0, "scan.truth_spacing_mm", "must be positive");
   rules.require(o.reflections.per_frame >= 0, "reflections.per_frame", "must not be negative");
@@ -109,6 +111,14 @@ void check_plans(const Scene& o, const Rules& rules) {
 void check_objects(const Scene& o, const Rules& rules) {
   for (const auto& wear : {o.rail.vertical_wear_mm, o.rail.side_wear_mm})
     for (const double end : wear) rules.require(end >= 0, "rail: wear", "must not be negative");
+  if (o.wheel.present()) {
+    rules.require(!o.rail.present(), "rail.profile", "must be none where there is a wheel");
+    rules.require(!parallel(o.wheel.axis, Vector3d::UnitZ()), "wheel.axis",
+                  "must be neither zero nor upright");
+    rules.require(o.wheel.diameter_mm >= 200, "wheel.diameter_mm", "must be 200 or more");
+    rules.require(o.wheel.flange_wear_mm >= 0 && o.wheel.tread_wear_mm >= 0, "wheel: wear",
+                  "must not be negative");
+  }
   for (const StepsObject& steps : o.steps) {
     rules.require(!steps.heights_mm.empty(), "steps.heights_mm", "give at least one");
     for (const double height : steps.heights_mm)
@@ -151,6 +161,8 @@ Scene read_scene(const std::filesystem::path& path) {
   Scene scene;
   read_yaml(path, scene);
   const bool outline_file = scene.rail.profile.ends_with(".yaml");
+  if (scene.wheel.profile.ends_with(".yaml"))
+    scene.wheel.profile = (path.parent_path() / scene.wheel.profile).string();
   if (outline_file) scene.rail.profile = (path.parent_path() / scene.rail.profile).string();
   scene.check(path.string());
   return scene;

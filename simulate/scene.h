@@ -62,10 +62,12 @@ void visit_fields(V&& v, BoardPlan& o) {
   v("images", o.images, "pair: laser off and on; single: board and stripe in one");
 }
 
-/// One board, fixed in the world, seen while the rig travels. No positions: no motion calibration.
+/// One board, fixed to the object, seen while the rig travels or the object turns (where the scene has a
+/// wheel). No positions: no motion calibration.
 struct MotionPlan {
   int positions = 10;
   double step_mm = 10;
+  double step_deg = 2;
   std::string sensor;  ///< who looks; empty: the first
   Moves moves = Moves::kRig;
 };
@@ -74,6 +76,7 @@ template <class V>
 void visit_fields(V&& v, MotionPlan& o) {
   v("positions", o.positions, "images of the motion calibration; 0: none");
   v("step_mm", o.step_mm);
+  v("step_deg", o.step_deg, "instead, where the scene has a wheel");
   v("sensor", o.sensor, "who looks; empty: the first");
   v("moves", o.moves);
 }
@@ -81,13 +84,18 @@ void visit_fields(V&& v, MotionPlan& o) {
 struct ScanPlan {
   int frames = 40;
   double step_mm = 2;
-  double truth_spacing_mm = 0.1;  ///< between the points of truth/sections.csv
+  double step_deg = 9;
+  double sway_deg = 0, sway_mm = 0;  ///< not 0: the rig is led by hand, its poses are known (poses.csv)
+  double truth_spacing_mm = 0.1;     ///< between the points of truth/sections.csv
 };
 
 template <class V>
 void visit_fields(V&& v, ScanPlan& o) {
   v("frames", o.frames);
   v("step_mm", o.step_mm);
+  v("step_deg", o.step_deg, "instead, where the scene has a wheel");
+  v("sway_deg", o.sway_deg, "turns of a rig led by hand, largest; its poses are then known");
+  v("sway_mm", o.sway_mm, "its excursions, largest");
   v("truth_spacing_mm", o.truth_spacing_mm, "between the points of truth/sections.csv");
 }
 
@@ -117,10 +125,14 @@ struct Scene {
   ScanPlan scan;
   Reflections reflections;
   RailObject rail;
+  WheelObject wheel;
   std::vector<StepsObject> steps;
   std::vector<SphereObject> spheres;
   std::vector<CylinderObject> cylinders;
   std::optional<GroundObject> ground;
+
+  bool turns() const { return wheel.present(); }
+  bool has_poses() const { return scan.sway_deg != 0 || scan.sway_mm != 0; }
 
   /// Throws Error naming the field and the rule; `origin` (the file) stands before it.
   void check(const std::string& origin = "") const;
@@ -136,6 +148,7 @@ void visit_fields(V&& v, Scene& o) {
   v("scan", o.scan);
   v("reflections", o.reflections);
   v("rail", o.rail);
+  v("wheel", o.wheel);
   v("steps", o.steps);
   v("spheres", o.spheres);
   v("cylinders", o.cylinders);

@@ -49,6 +49,33 @@ void visit_fields(V&& v, RailObject& o) {
   v("material", o.material);
 }
 
+/// A railway wheel that turns about its axis while the sensors stand (or the sensors about it). All around it
+/// has one section.
+struct WheelObject {
+  std::string profile = "none";              ///< nominal section: a name, a file, or "none" for no wheel
+  Eigen::Vector3d center{0.0, 0.0, -490.0};  ///< on the axis it turns about, in the plane of the tread datum
+  Eigen::Vector3d axis{0.0, 1.0, 0.0};       ///< towards the field side
+  double diameter_mm = 920;                  ///< of the unworn tread at the datum
+  double flange_wear_mm = 0;                 ///< of the active face, towards the back
+  double tread_wear_mm = 0;                  ///< of the tread at the datum, radial
+  double eccentricity_mm = 0;  ///< of the section's axis from the one it turns about, upwards at 0 degrees
+  Material material;
+
+  bool present() const { return profile != "none"; }
+};
+
+template <class V>
+void visit_fields(V&& v, WheelObject& o) {
+  v("profile", o.profile, "nominal section: a name, a file, or none");
+  v("center", o.center, "mm, on the axis, in the plane of the tread datum");
+  v("axis", o.axis, "towards the field side");
+  v("diameter_mm", o.diameter_mm, "of the unworn tread at the datum");
+  v("flange_wear_mm", o.flange_wear_mm, "of the active face");
+  v("tread_wear_mm", o.tread_wear_mm, "at the datum, radial");
+  v("eccentricity_mm", o.eccentricity_mm, "of the section's axis, upwards at 0 degrees");
+  v("material", o.material);
+}
+
 /// A staircase: treads of `run_mm` that rise to `heights_mm`, side by side along y, centred on `base`.
 struct StepsObject {
   Eigen::Vector3d base{0.0, 0.0, -60.0};

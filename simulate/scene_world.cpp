@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "simulate/worn_rail.h"
+#include "simulate/worn_wheel.h"
 
 namespace lightstripe {
 namespace {
@@ -53,11 +54,25 @@ Rigid3 world_from_rail(const Scene& scene) {
   return {Quaterniond(AngleAxisd(scene.rail.inclination_deg * kDegree, Vector3d::UnitX())), scene.rail.top};
 }
 
+Outline wheel_outline(const Scene& scene, const Outline& nominal) {
+  return worn_wheel(nominal, {scene.wheel.flange_wear_mm, scene.wheel.tread_wear_mm});
+}
+
+Rigid3 world_from_wheel(const Scene& scene) {
+  const Vector3d axis = scene.wheel.axis.normalized();
+  const Vector3d up = (Vector3d::UnitZ() - axis.z() * axis).normalized();
+  return {Quaterniond::FromTwoVectors(Vector3d::UnitX(), axis),
+          scene.wheel.center + scene.wheel.eccentricity_mm * up};
+}
+
 World scan_world(const Scene& scene, const Outline& nominal, int frame) {
   World world;
   if (scene.rail.present())
     world.extrusions.push_back(
         make_extrusion(world_from_rail(scene), rail_outline(scene, nominal, frame), 0, scene.rail.material));
+  if (scene.wheel.present())
+    world.revolutions.push_back(make_revolution(world_from_wheel(scene), wheel_outline(scene, nominal),
+                                                scene.wheel.diameter_mm / 2, scene.wheel.material));
   for (const StepsObject& steps : scene.steps) world.extrusions.push_back(staircase(steps));
   for (const CylinderObject& object : scene.cylinders) world.extrusions.push_back(cylinder(object));
   world.spheres = scene.spheres;
@@ -67,6 +82,8 @@ World scan_world(const Scene& scene, const Outline& nominal, int frame) {
 
 bool same_in_all_frames(const Scene& scene) {
   const bool endless = scene.steps.empty() && scene.spheres.empty() && scene.cylinders.empty();
+  if (scene.has_poses()) return false;
+  if (scene.wheel.present()) return endless && !scene.ground && scene.wheel.eccentricity_mm == 0;
   const RailObject& rail = scene.rail;
   const bool one_section =
       rail.vertical_wear_mm[0] == rail.vertical_wear_mm[1] && rail.side_wear_mm[0] == rail.side_wear_mm[1];

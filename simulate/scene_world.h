@@ -9,8 +9,10 @@
 
 namespace lightstripe {
 
-/// Position of the scan's frame, mm.
-inline double travel_of(const Scene& scene, int frame) { return frame * scene.scan.step_mm; }
+/// Position of the scan's frame, mm or degrees.
+inline double travel_of(const Scene& scene, int frame) {
+  return frame * (scene.turns() ? scene.scan.step_deg : scene.scan.step_mm);
+}
 
 struct RailWear {
   double vertical_mm = 0, side_mm = 0;
@@ -23,7 +25,14 @@ Outline rail_outline(const Scene& scene, const Outline& nominal, int frame);
 /// world_from_solid of the rail: (x, u, v) to the world.
 Rigid3 world_from_rail(const Scene& scene);
 
-/// What a frame of the scan sees. `nominal`: the outline of scene.rail.profile, ignored if there is no rail.
+/// The section of the scene's wheel, (u, v) about the unworn tread datum.
+Outline wheel_outline(const Scene& scene, const Outline& nominal);
+
+/// world_from_solid of the wheel: x along its axis to the field side, origin in the plane of the datum.
+Rigid3 world_from_wheel(const Scene& scene);
+
+/// What a frame of the scan sees. `nominal`: the outline of the rail or the wheel, ignored if there is
+/// neither.
 World scan_world(const Scene& scene, const Outline& nominal, int frame);
 
 /// Whether every frame of the scan sees the same picture, noise and reflections apart.

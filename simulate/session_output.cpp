@@ -41,32 +41,52 @@ Session session_of(const Scene& scene, const ImagePlan& plan) {
   }
   if (scene.motion.positions == 0) return session;
   const std::string& name = plan.sensors[motion_sensor(scene)].name;
-  session.motion = SessionMotion{MotionType::kLinear, name, "calib/" + name + "/travel/*.png",
-                                 "calib/travel.csv", scene.motion.moves == Moves::kRig};
+  session.motion =
+      SessionMotion{scene.turns() ? MotionType::kRotary : MotionType::kLinear, name,
+                    "calib/" + name + "/travel/*.png", "calib/travel.csv", scene.motion.moves == Moves::kRig};
   return session;
 }
 
-Scan scan_of(const ImagePlan& plan) {
+Scan scan_of(const Scene& scene, const ImagePlan& plan) {
   Scan scan;
   scan.rig = "rig.yaml";
   for (const SimulatedSensor& sensor : plan.sensors)
     scan.frames.emplace_back(sensor.name, "scan/" + sensor.name + "/*.png");
-  scan.travel = TravelSource::kFile;
-  scan.travel_file = "scan/travel.csv";
+  scan.travel = scene.has_poses() ? TravelSource::kPoses : TravelSource::kFile;
+  if (scene.has_poses()) {
+    scan.poses_file = "scan/poses.csv";
+    scan.poses_of = plan.sensors.front().name;
+  } else {
+    scan.travel_file = "scan/travel.csv";
+  }
   return scan;
 }
 
 std::string motion_travel(const Scene& scene) {
-  std::string out = "image,travel_mm\n";
+  std::string out = scene.turns() ? "image,angle_deg\n" : "image,travel_mm\n";
+  const double step = scene.turns() ? scene.motion.step_deg : scene.motion.step_mm;
   for (int i = 0; i < scene.motion.positions; ++i)
-    fmt::format_to(std::back_inserter(out), "{},{}\n", board_file(i), i * scene.motion.step_mm);
+    fmt::format_to(std::back_inserter(out), "{},{}\n", board_file(i), i * step);
   return out;
 }
 
 std::string scan_travel(const Scene& scene) {
-  std::string out = "frame,travel_mm\n";
+  std::string out = scene.turns() ? "frame,angle_deg\n" : "frame,travel_mm\n";
   for (int i = 0; i < scene.scan.frames; ++i)
     fmt::format_to(std::back_inserter(out), "{},{}\n", i, travel_of(scene, i));
+  return out;
+}
+
+/// world_from_camera of the first sensor in every frame, the rig frame at travel 0 being the world.
+std::string scan_poses(const Scene& scene, const ImagePlan& plan, const Rigid3& rig_from_world) {
+  std::string out = "frame,qw,qx,qy,qz,x,y,z\n";
+  for (int i = 0; i < scene.scan.frames; ++i) {
+    const Rigid3 pose = rig_from_world * moved_in_scan(scene, i) * plan.sensors.front().world_from_camera;
+    const Eigen::Quaterniond& q = pose.rotation;
+    const Eigen::Vector3d& t = pose.translation;
+    fmt::format_to(std::back_inserter(out), "{},{},{},{},{},{},{},{}\n", i, q.w(), q.x(), q.y(), q.z(), t.x(),
+                   t.y(), t.z());
+  }
   return out;
 }
 
@@ -107,7 +127,7 @@ void write_truth(const fs::path& folder, const Scene& scene, const ImagePlan& pl
   write_file(folder / "rig.yaml", rig_to_yaml(rig));
   write_file(folder / "scene.yaml", dump_yaml(scene));
   write_poses(folder / "poses.csv", true_poses(plan, to_rig));
-  write_sections(folder, scene, plan.nominal_rail, to_rig);
+  write_sections(folder, scene, plan.nominal, rig, to_rig);
   write_truth_readme(folder / "README.md");
 }
 
@@ -121,9 +141,14 @@ SimulationSummary write_session(const fs::path& output_folder, const Scene& scen
     write_file(summary.session, session_to_yaml(session_of(scene, plan)));
   }
   if (scene.scan.frames > 0) {
-    write_file(output_folder / "scan/travel.csv", scan_travel(scene));
+    const Rig rig = true_rig(scene, plan.sensors);
+    if (scene.has_poses())
+      write_file(output_folder / "scan/poses.csv",
+                 scan_poses(scene, plan, rig_from_world(rig, plan.sensors)));
+    else
+      write_file(output_folder / "scan/travel.csv", scan_travel(scene));
     summary.scan = output_folder / "scan.yaml";
-    write_file(summary.scan, scan_to_yaml(scan_of(plan)));
+    write_file(summary.scan, scan_to_yaml(scan_of(scene, plan)));
   }
   return summary;
 }

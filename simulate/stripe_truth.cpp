@@ -22,8 +22,8 @@ struct Tracer {
 
   std::optional<StripeTruth> at(double angle) const {
     const SimulatedSensor& sensor = *view.sensor;
-    const Ray ray{sensor.source + view.shift,
-                  std::cos(angle) * sensor.axis + std::sin(angle) * sensor.across};
+    const Ray ray{view.source(),
+                  view.moved.rotation * (std::cos(angle) * sensor.axis + std::sin(angle) * sensor.across)};
     const std::optional<SurfaceHit> hit = first_hit(world, ray);
     if (!hit) return std::nullopt;
     const Eigen::Vector3d p = ray.at(hit->s);

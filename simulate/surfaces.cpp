@@ -155,6 +155,9 @@ std::optional<SurfaceHit> first_hit(const World& world, const Ray& ray) {
   std::optional<SurfaceHit> nearest;
   for (const BoardSurface& board : world.boards) meet_board(board, ray, nearest);
   for (const Extrusion& solid : world.extrusions) meet_extrusion(solid, ray, nearest);
+  for (const Revolution& solid : world.revolutions)
+    if (const auto hit = first_hit(solid, ray.origin, ray.direction))
+      keep_nearer(nearest, {hit->s, hit->normal, solid.material});
   for (const SphereObject& sphere : world.spheres) meet_sphere(sphere, ray, nearest);
   if (world.ground) meet_ground(*world.ground, ray, nearest);
   return nearest;

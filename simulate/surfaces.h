@@ -10,6 +10,7 @@
 #include "core/board.h"
 #include "core/outline.h"
 #include "core/transform.h"
+#include "simulate/revolution.h"
 #include "simulate/scene_objects.h"
 
 namespace lightstripe {
@@ -60,6 +61,7 @@ Extrusion make_extrusion(const Rigid3& world_from_solid, const Outline& outline,
 struct World {
   std::vector<BoardSurface> boards;
   std::vector<Extrusion> extrusions;
+  std::vector<Revolution> revolutions;
   std::vector<SphereObject> spheres;
   std::optional<GroundObject> ground;
 };

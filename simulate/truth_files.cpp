@@ -4,10 +4,13 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <iterator>
 
 #include "io/atomic_file.h"
+#include "simulate/board_poses.h"
 #include "simulate/scene_world.h"
+#include "simulate/worn_wheel.h"
 
 namespace lightstripe {
 namespace {
@@ -34,9 +37,73 @@ calibration.yaml made orthogonal to x, y = z cross x. Without a motion calibrati
 - `sections.csv`: `frame,travel,u,v` — the outline of the rail that the frame sees, u = y, v = z of the rig frame, in order
   along the outline (counterclockwise from the top), closed, first point not repeated, not farther apart than
   `scan.truth_spacing_mm`. Only where the scene has a rail.
-- `wear.csv`: `frame,travel,vertical_wear,side_wear` — how much lower the rail is on its centreline and how far the gauge
-  face (+y) lies further in, both in the rail's own frame.
+  Of a wheel: u = position along the axis from the axis' point nearest to the rig's origin (truth/rig.yaml), v = radius, from the
+  field side's inner end over tread and flange to the back. None where the rig is led by hand (`scan: sway`).
+- `wear.csv` of a rail: `frame,travel,vertical_wear,side_wear` — how much lower the rail is on its centreline and how far the gauge
+  face (+y) lies further in, both in the rail's own frame. Of a wheel: `frame,travel,flange_height,flange_thickness,qr,tread_wear,
+  hollow,rim_width,diameter` of the section by railway practice (datum 70 mm from the back, thickness 10 mm above the datum, qR
+  down from 2 mm below the tip); hollow = largest rise of the tread towards the field side; diameter at the datum.
 )";
+
+struct SectionTables {
+  std::string sections, wear;
+};
+
+SectionTables rail_sections(const Scene& scene, const Outline& nominal, const Rigid3& rig_from_world) {
+  SectionTables out{"frame,travel,u,v\n", "frame,travel,vertical_wear,side_wear\n"};
+  const Rigid3 rig_from_rail = rig_from_world * world_from_rail(scene);
+  for (int frame = 0; frame < scene.scan.frames; ++frame) {
+    const double travel = travel_of(scene, frame);
+    for (const OutlineSample& point :
+         sample(rail_outline(scene, nominal, frame), scene.scan.truth_spacing_mm)) {
+      const Eigen::Vector3d p = rig_from_rail * Eigen::Vector3d(0, point.position.x(), point.position.y());
+      fmt::format_to(std::back_inserter(out.sections), "{},{},{:.6f},{:.6f}\n", frame, travel, p.y(), p.z());
+    }
+    const RailWear wear = wear_at(scene, frame);
+    fmt::format_to(std::back_inserter(out.wear), "{},{},{},{}\n", frame, travel, wear.vertical_mm,
+                   wear.side_mm);
+  }
+  return out;
+}
+
+/// How far the section's axis stands off the turning one, towards where the first laser meets the wheel.
+/// `across` gets what is left of it.
+double offset_towards_laser(const Scene& scene, int frame, double& across) {
+  const Eigen::Vector3d axis = scene.wheel.axis.normalized();
+  const Eigen::Vector3d aim = scene.sensors.front().laser.aim - scene.wheel.center;
+  const Eigen::Vector3d lit =
+      moved_in_scan(scene, frame).rotation * (aim - axis.dot(aim) * axis).normalized();
+  const Eigen::Vector3d offset = world_from_wheel(scene).translation - scene.wheel.center;
+  across = (offset - offset.dot(lit) * lit).norm();
+  return offset.dot(lit);
+}
+
+SectionTables wheel_sections(const Scene& scene, const Outline& nominal, const Rig& rig,
+                             const Rigid3& rig_from_world) {
+  SectionTables out{"frame,travel,u,v\n",
+                    "frame,travel,flange_height,flange_thickness,qr,tread_wear,hollow,rim_width,diameter\n"};
+  const Motion& motion = rig.motion;
+  const double datum_u = motion.axis_direction.dot(rig_from_world * scene.wheel.center - motion.axis_point);
+  const double side = motion.axis_direction.dot(rig_from_world.rotation * scene.wheel.axis) > 0 ? 1 : -1;
+  const Outline section = wheel_outline(scene, nominal);
+  const WheelDimensions size = measure_wheel_section(section);
+  const auto points = sample(section, scene.scan.truth_spacing_mm);
+  const double radius = scene.wheel.diameter_mm / 2;
+  for (int frame = 0; frame < scene.scan.frames; ++frame) {
+    double across = 0;
+    const double towards = offset_towards_laser(scene, frame, across);
+    const double travel = travel_of(scene, frame);
+    for (const OutlineSample& point : points) {
+      const double r = radius + point.position.y();
+      fmt::format_to(std::back_inserter(out.sections), "{},{},{:.6f},{:.6f}\n", frame, travel,
+                     datum_u + side * point.position.x(), towards + std::sqrt(r * r - across * across));
+    }
+    fmt::format_to(std::back_inserter(out.wear), "{},{},{:.6f},{:.6f},{:.6f},{},{:.6f},{:.6f},{}\n", frame,
+                   travel, size.flange_height, size.flange_thickness, size.qr, scene.wheel.tread_wear_mm,
+                   size.hollow, size.rim_width, 2 * (radius - scene.wheel.tread_wear_mm));
+  }
+  return out;
+}
 
 }  // namespace
 
@@ -68,23 +135,14 @@ void write_poses(const std::filesystem::path& path, const std::vector<NamedPose>
 }
 
 void write_sections(const std::filesystem::path& folder, const Scene& scene, const Outline& nominal,
-                    const Rigid3& rig_from_world) {
-  if (!scene.rail.present()) return;
-  std::string sections = "frame,travel,u,v\n", wear_rows = "frame,travel,vertical_wear,side_wear\n";
-  const Rigid3 rig_from_rail = rig_from_world * world_from_rail(scene);
-  for (int frame = 0; frame < scene.scan.frames; ++frame) {
-    const double travel = travel_of(scene, frame);
-    for (const OutlineSample& point :
-         sample(rail_outline(scene, nominal, frame), scene.scan.truth_spacing_mm)) {
-      const Eigen::Vector3d p = rig_from_rail * Eigen::Vector3d(0, point.position.x(), point.position.y());
-      fmt::format_to(std::back_inserter(sections), "{},{},{:.6f},{:.6f}\n", frame, travel, p.y(), p.z());
-    }
-    const RailWear wear = wear_at(scene, frame);
-    fmt::format_to(std::back_inserter(wear_rows), "{},{},{},{}\n", frame, travel, wear.vertical_mm,
-                   wear.side_mm);
-  }
-  write_file(folder / "sections.csv", sections);
-  write_file(folder / "wear.csv", wear_rows);
+                    const Rig& rig, const Rigid3& rig_from_world) {
+  if (scene.has_poses()) return;
+  SectionTables tables;
+  if (scene.rail.present()) tables = rail_sections(scene, nominal, rig_from_world);
+  if (scene.wheel.present()) tables = wheel_sections(scene, nominal, rig, rig_from_world);
+  if (tables.sections.empty()) return;
+  write_file(folder / "sections.csv", tables.sections);
+  write_file(folder / "wear.csv", tables.wear);
 }
 
 void write_truth_readme(const std::filesystem::path& path) { write_file(path, kReadme); }

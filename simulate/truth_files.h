@@ -34,7 +34,7 @@ void write_poses(const std::filesystem::path& path, const std::vector<NamedPose>
 
 /// sections.csv and wear.csv, one section a frame. Without a rail neither is written.
 void write_sections(const std::filesystem::path& folder, const Scene& scene, const Outline& nominal,
-                    const Rigid3& rig_from_world);
+                    const Rig& rig, const Rigid3& rig_from_world);
 
 void write_truth_readme(const std::filesystem::path& path);
 

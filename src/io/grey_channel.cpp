@@ -74,6 +74,21 @@ double peak_above_median(const cv::Mat& grey) {
   return level_reached_by(std::min(bright, total)) - level_reached_by(total / 2 + 1);
 }
 
+/// Whether the line's own channel is clipped, so that the other channels catch up in the line's core and the excess has
+/// its light at the line's two edges only.
+bool is_hollow(const std::array<cv::Mat, 3>& bgr, std::size_t plane, double peak) {
+  constexpr double kClipped = 250, kDepth = 60;  // grey levels
+  constexpr int kWidestCore = 15;                // px
+  constexpr double kHollowShare = 0.1;
+  const cv::Mat light = excess(bgr, plane), clipped = bgr.at(plane) >= kClipped;
+  if (cv::countNonZero(clipped) < kMinPeakPixels) return false;
+  cv::Mat closed;
+  cv::morphologyEx(light, closed, cv::MORPH_CLOSE,
+                   cv::getStructuringElement(cv::MORPH_RECT, cv::Size(kWidestCore, kWidestCore)));
+  const cv::Mat hollow = clipped & (closed - light >= kDepth), bright = light >= 0.5 * peak;
+  return cv::countNonZero(hollow) > kHollowShare * cv::countNonZero(bright);
+}
+
 template <class T>
 Image<T> image_of(const cv::Mat& grey) {
   Image<T> image;
@@ -103,6 +118,8 @@ ChannelChoice strongest_channel(const cv::Mat& picture) {
     const double peak = peak_above_median(excess(bgr, plane_of(channel)));
     if (peak >= kMinPeak && peak > best.peak) best = {channel, peak};
   }
+  // The grey picture still has the line's light in its middle.
+  if (best.peak > 0 && is_hollow(bgr, plane_of(best.channel), best.peak)) return {Channel::kGray, best.peak};
   return best;
 }
 

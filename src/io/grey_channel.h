@@ -17,7 +17,8 @@ struct ChannelChoice {
 };
 
 /// What Channel::kAuto means for this picture (8-bit grey or BGR): the excess whose brightest pixels stand
-/// out most above its median; gray where none stands out.
+/// out most above its median; gray where none stands out, or where the line is so overexposed that its excess
+/// is hollow.
 ChannelChoice strongest_channel(const cv::Mat& picture);
 
 /// The channel (not kAuto) of an 8-bit grey or BGR picture. An excess of a picture without colour is an Error

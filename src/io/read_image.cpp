@@ -3,6 +3,7 @@
 // A picture file -> grey values.
 #include <fmt/format.h>
 #include <opencv2/imgcodecs.hpp>
+#include <optional>
 
 #include "core/error.h"
 #include "io/atomic_file.h"
@@ -10,6 +11,7 @@
 #include "io/grey_channel.h"
 #include "io/image_header.h"
 #include "io/images.h"
+#include "io/png_grey.h"
 
 namespace lightstripe {
 namespace {
@@ -57,9 +59,8 @@ cv::Mat scaled_to_8_bits(const cv::Mat& picture, const ImageHeader& header) {
   return scaled;
 }
 
-/// Binary grey PNM with a white of 255 lies in the file as it is needed; nothing to decode.
-std::optional<Image8> plain_grey(std::string_view bytes, const ImageHeader& header) {
-  if (header.format != ImageFormat::kPnm || header.max_value != 255 || bytes[1] != '5') return std::nullopt;
+/// Binary grey PNM with a white of 255: the pixels lie in the file as they are needed.
+Image8 grey_pnm(std::string_view bytes, const ImageHeader& header) {
   const auto count = static_cast<std::size_t>(header.width * header.height);
   Image8 image;
   image.width = static_cast<int>(header.width);
@@ -69,6 +70,16 @@ std::optional<Image8> plain_grey(std::string_view bytes, const ImageHeader& head
   return image;
 }
 
+/// The kinds that long recordings consist of, without OpenCV's detour; nothing for all others.
+std::optional<GreyImage> plain_picture(std::string_view bytes, const ImageHeader& header, Bits bits) {
+  if (header.format == ImageFormat::kPnm && header.max_value == 255 && bytes[1] == '5')
+    return grey_pnm(bytes, header);
+  if (header.format != ImageFormat::kPng) return std::nullopt;
+  auto picture = decode_grey_png(bytes);
+  if (picture && bits == Bits::kReducedTo8 && std::holds_alternative<Image16>(*picture)) return std::nullopt;
+  return picture;
+}
+
 }  // namespace
 
 GreyImage decode_picture(std::string_view bytes, const std::string& name, Channel channel, Bits bits,
@@ -76,11 +87,11 @@ GreyImage decode_picture(std::string_view bytes, const std::string& name, Channe
   if (bytes.empty()) throw Error(name, "is empty", kExportAgain);
   const ImageHeader header = inspect_image(bytes);
   check_header(header, name);
-  if (channel == Channel::kAuto || channel == Channel::kGray) {
-    if (auto plain = plain_grey(bytes, header)) {
-      if (chosen != nullptr) *chosen = Channel::kGray;
-      return std::move(*plain);
-    }
+  if (auto plain = plain_picture(bytes, header, bits)) {
+    if (channel == Channel::kAuto) channel = Channel::kGray;
+    check_grey_channel(channel, name);
+    if (chosen != nullptr) *chosen = channel;
+    return std::move(*plain);
   }
   cv::Mat picture = decoded(bytes, name);
   if (picture.cols != header.width || picture.rows != header.height)

@@ -18,9 +18,16 @@ Channel chosen_for(const std::string& name) {
 
 TEST(ChannelAuto, TakesRedExcessOfEveryRealRedLine) {
   if (!std::filesystem::exists(kData / "pot")) GTEST_SKIP() << "no ../shared/data/pot";
-  for (const char* pattern : {"pot/board/*.png", "pot/scan/*.png", "stripes/hub_*.png"})
+  for (const char* pattern : {"pot/board/*.png", "pot/scan/*.png"})
     for (const auto& file : list_files(kData, pattern))
       EXPECT_EQ(enum_name(chosen_for(std::filesystem::relative(file, kData).string())), "red-excess") << file;
+}
+
+TEST(ChannelAuto, TakesGreyWhereTheRealLineIsOverexposed) {
+  // The core of the hub's line is (255, 156, 255) and the like: nothing is left of it in the red excess.
+  if (!std::filesystem::exists(kData / "stripes")) GTEST_SKIP() << "no ../shared/data/stripes";
+  for (const auto& file : list_files(kData, "stripes/hub_*.png"))
+    EXPECT_EQ(enum_name(chosen_for(std::filesystem::relative(file, kData).string())), "gray") << file;
 }
 
 TEST(FrameSource, OpensARealScan) {

@@ -42,6 +42,36 @@ bool same_pixels(const Image8& image, const cv::Mat& grey) {
   return true;
 }
 
+// OpenCV's decoder as the oracle, over sizes, filters and both depths.
+TEST(ReadImage, PlainGreyPngIsDecodedAsByOpenCv) {
+  const TempFolder folder;
+  int kinds = 0;
+  for (const int type : {CV_8UC1, CV_16UC1})
+    for (const int width : {1, 2, 7, 64, 301})
+      for (const int strategy : {cv::IMWRITE_PNG_STRATEGY_DEFAULT, cv::IMWRITE_PNG_STRATEGY_FILTERED,
+                                 cv::IMWRITE_PNG_STRATEGY_RLE})
+        for (const int level : {0, 1, 9}) {
+          cv::Mat picture = noise(width, 23, type, 3);
+          cv::blur(picture, picture, {3, 3});  // so that the encoder has reason to filter
+          const std::string bytes = encoded(
+              ".png", picture, {cv::IMWRITE_PNG_COMPRESSION, level, cv::IMWRITE_PNG_STRATEGY, strategy});
+          const GreyImage found = read_grey_image(folder.write("a.png", bytes), Channel::kAuto);
+          ++kinds;
+          if (type == CV_8UC1) {
+            const cv::Mat expected = picture.reshape(1, 1);
+            EXPECT_EQ(
+                std::get<Image8>(found).pixels,
+                std::vector<std::uint8_t>(expected.begin<std::uint8_t>(), expected.end<std::uint8_t>()));
+          } else {
+            const cv::Mat expected = picture.reshape(1, 1);
+            EXPECT_EQ(
+                std::get<Image16>(found).pixels,
+                std::vector<std::uint16_t>(expected.begin<std::uint16_t>(), expected.end<std::uint16_t>()));
+          }
+        }
+  EXPECT_EQ(kinds, 90);
+}
+
 TEST(ReadImage, GivesTheGreyValuesOfLosslessFormats) {
   const TempFolder folder;
   const cv::Mat grey = noise(37, 21, CV_8UC1, 1);
@@ -261,6 +291,27 @@ TEST(Channel, AnExcessOfAGreyPictureIsAnError) {
   EXPECT_THAT(error_of([&] { read_image(file, Channel::kRedExcess); }),
               HasSubstr("has no colour excess; set channel"));
   EXPECT_NO_THROW(read_image(file, Channel::kRed));
+}
+
+TEST(Channel, OverexposedLineWhoseExcessIsHollowIsReadAsGrey) {
+  // A halo of pure clipped red, 20 px wide, and a core of 4 px where green and blue catch up.
+  const TempFolder folder;
+  const auto picture = [&](int core) {
+    std::vector<std::uint8_t> rgb(120 * 80 * 3, 30);
+    for (std::size_t y = 0; y < 80; ++y)
+      for (std::size_t x = 50; x < 70; ++x) {
+        const bool inside = x >= 58 && x < 62;
+        std::uint8_t* pixel = &rgb[(y * 120 + x) * 3];
+        pixel[0] = 255;
+        pixel[1] = pixel[2] = static_cast<std::uint8_t>(inside ? core : 0);
+      }
+    write_rgb_image(folder / "line.png", rgb, 120, 80);
+    Channel chosen = Channel::kAuto;
+    read_image(folder / "line.png", Channel::kAuto, &chosen);
+    return chosen;
+  };
+  EXPECT_EQ(picture(230), Channel::kGray);
+  EXPECT_EQ(picture(20), Channel::kRedExcess);
 }
 
 }  // namespace

@@ -38,7 +38,7 @@ inline Section rail_section(const Outline& rail, const SectionRecipe& recipe) {
       const Eigen::Vector2d seen = p + recipe.noise_mm * random.gaussian() * n;
       const Eigen::Vector2d moved =
           Eigen::Rotation2Dd(recipe.turn_deg * std::numbers::pi / 180) * seen + recipe.shift;
-      section.push_back({moved, 2 * sensor + (head ? 0 : 1), sensor});
+      section.push_back({moved, 2 * sensor + (head ? 0 : 1), sensor, 0, 1});
     }
   }
   return section;
@@ -54,7 +54,7 @@ inline Section wheel_section(const Outline& wheel, double lowest_v, const Sectio
     Eigen::Vector2d p = point.position + recipe.noise_mm * random.gaussian() * point.normal;
     if (mirrored) p.x() = -p.x();
     section.push_back(
-        {Eigen::Rotation2Dd(recipe.turn_deg * std::numbers::pi / 180) * p + recipe.shift, 0, 0});
+        {Eigen::Rotation2Dd(recipe.turn_deg * std::numbers::pi / 180) * p + recipe.shift, 0, 0, 0, 1});
   }
   return section;
 }

@@ -16,8 +16,8 @@ namespace {
 using Eigen::Vector3d;
 
 int corners_in_view(const SimulatedSensor& sensor, const Target& target, const Rigid3& pose,
-                    const Vector3d& shift) {
-  const View view{&sensor, shift, 0, 0};
+                    const Rigid3& moved) {
+  const View view{&sensor, moved, 0, 0};
   int seen = 0;
   for (int i = 0; i < target.num_corners(); ++i)
     seen += pixel_of(view, pose * Vector3d(target.corner(i).x(), target.corner(i).y(), 0)).has_value();
@@ -40,7 +40,7 @@ TEST_F(BoardPoses, EverySensorSeesEveryCornerFromTheFront) {
   ASSERT_EQ(poses.size(), 20U);
   for (const Rigid3& pose : poses)
     for (const SimulatedSensor& sensor : sensors) {
-      EXPECT_EQ(corners_in_view(sensor, target, pose, Vector3d::Zero()), target.num_corners());
+      EXPECT_EQ(corners_in_view(sensor, target, pose, {}), target.num_corners());
       // z goes into the board: along the line of sight.
       EXPECT_GT(
           (pose.rotation * Vector3d::UnitZ()).dot(pose.translation - sensor.world_from_camera.translation),
@@ -97,7 +97,7 @@ TEST_F(BoardPoses, CutOffPosesLeaveTheFirstSensorsImageInPart) {
   cut.boards.spread = {60, 90, 90};
   const auto poses = draw_board_poses(cut, sensors);
   for (std::size_t i = 0; i < 6; ++i) {
-    const int seen = corners_in_view(sensors[0], target, poses[i], Vector3d::Zero());
+    const int seen = corners_in_view(sensors[0], target, poses[i], {});
     EXPECT_EQ(seen == target.num_corners(), i < 4) << i;
     EXPECT_GT(2 * seen, target.num_corners());
   }
@@ -106,7 +106,7 @@ TEST_F(BoardPoses, CutOffPosesLeaveTheFirstSensorsImageInPart) {
 TEST_F(BoardPoses, MotionBoardStaysInViewOverTheWholeTravel) {
   const Rigid3 pose = draw_motion_board(scene, sensors);
   for (const int position : {0, 5, 9})
-    EXPECT_EQ(corners_in_view(sensors[0], target, pose, shift_at(scene, position * scene.motion.step_mm)),
+    EXPECT_EQ(corners_in_view(sensors[0], target, pose, moved_at(scene, position * scene.motion.step_mm)),
               target.num_corners());
 }
 
@@ -122,8 +122,8 @@ TEST_F(BoardPoses, ImpossibleWishesAreRefused) {
 TEST_F(BoardPoses, MovingTheObjectIsMovingTheRigTheOtherWay) {
   Scene object;
   object.motion.moves = Moves::kObject;
-  EXPECT_EQ(shift_at(scene, 7), Vector3d(7, 0, 0));
-  EXPECT_EQ(shift_at(object, 7), Vector3d(-7, 0, 0));
+  EXPECT_EQ(moved_at(scene, 7).translation, Vector3d(7, 0, 0));
+  EXPECT_EQ(moved_at(object, 7).translation, Vector3d(-7, 0, 0));
 }
 
 }  // namespace

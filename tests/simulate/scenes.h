@@ -35,9 +35,7 @@ inline Imaging noise_free() {
   return imaging;
 }
 
-inline View lit_view(const SimulatedSensor& sensor, double ambient) {
-  return {&sensor, Eigen::Vector3d::Zero(), ambient, 1};
-}
+inline View lit_view(const SimulatedSensor& sensor, double ambient) { return {&sensor, {}, ambient, 1}; }
 
 inline Image<float> rendered(const World& world, const View& view, const Imaging& imaging) {
   return render(world, view, make_ray_grid(*view.sensor, blur_margin(imaging) + 1), imaging);

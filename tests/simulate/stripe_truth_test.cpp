@@ -94,12 +94,12 @@ TEST(StripeTruth, OnTheRailPointsLieOnItsOutlineAndInTheSheet) {
   const Outline square = polygon_outline({{-30, 0}, {30, 0}, {30, -60}, {-30, -60}});
   const World world = scan_world(scene, square, 0);
   View view = lit_view(sensor, 30);
-  view.shift = {12, 0, 0};
+  view.moved.translation = {12, 0, 0};
   const auto points = trace_stripe(world, view, scene.imaging);
   ASSERT_GT(points.size(), 200U);
   for (const StripeTruth& point : points) {
     EXPECT_LT(closest_point(square, {point.position.y(), point.position.z()}).distance, 1e-9);
-    EXPECT_NEAR(sensor.sheet.signed_distance(point.position - view.shift), 0, 1e-9);
+    EXPECT_NEAR(sensor.sheet.signed_distance(point.position - view.moved.translation), 0, 1e-9);
     EXPECT_GT(point.level, 0);
   }
 }

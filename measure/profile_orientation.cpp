@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+#include "measure/profile_orientation.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "measure/robust_line.h"
+
+namespace lightstripe {
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr double kDatumMm = 70;
+
+/// Median height of the points between two places; 0 if there are none.
+double height_between(const std::vector<Vector2d>& points, double from, double to) {
+  std::vector<double> heights;
+  for (const Vector2d& p : points)
+    if (p.x() >= from && p.x() <= to) heights.push_back(p.y());
+  return heights.empty() ? 0.0 : median_of(std::move(heights));
+}
+
+void turn_rail(std::vector<Vector2d>& points) {
+  double low = points[0].x(), high = points[0].x();
+  for (const Vector2d& p : points) low = std::min(low, p.x()), high = std::max(high, p.x());
+  const double quarter = (high - low) / 4, middle = (low + high) / 2;
+  const double top = height_between(points, middle - quarter, middle + quarter);
+  const double sides =
+      (height_between(points, low, low + quarter / 4) + height_between(points, high - quarter / 4, high)) / 2;
+  if (top < sides)
+    for (Vector2d& p : points) p.y() = -p.y();
+}
+
+void turn_wheel(std::vector<Vector2d>& points) {
+  double sum = 0;
+  for (const Vector2d& p : points) sum += p.x();
+  if (sum < 0)
+    for (Vector2d& p : points) p.x() = -p.x();
+  const double flange = height_between(points, 8, 24),
+               tread = height_between(points, kDatumMm - 3, kDatumMm + 3);
+  if (flange < tread)
+    for (Vector2d& p : points) p.y() = -p.y();
+  for (Vector2d& p : points) p.x() -= kDatumMm;
+}
+
+}  // namespace
+
+void turn_upright(RecordedProfile& profile) {
+  if (profile.kind == ObjectKind::kRail) {
+    turn_rail(profile.points);
+  } else {
+    turn_wheel(profile.points);
+  }
+}
+
+}  // namespace lightstripe
