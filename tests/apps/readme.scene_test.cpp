@@ -11,35 +11,13 @@
 
 #include "command_line.h"
 #include "io/session_file.h"
+#include "markdown.h"
 
 namespace lightstripe {
 namespace {
 
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
-
-std::vector<std::string> lines_of(const std::string& text) {
-  std::vector<std::string> lines;
-  std::stringstream in(text);
-  for (std::string line; std::getline(in, line);) lines.push_back(line);
-  return lines;
-}
-
-/// The commands of the README's sh blocks, without indent and comments.
-std::vector<std::string> commands_of(const std::string& readme) {
-  std::vector<std::string> commands;
-  bool inside = false;
-  for (std::string line : lines_of(readme)) {
-    line.erase(0, line.find_first_not_of(' '));
-    if (line.starts_with("```")) {
-      inside = line == "```sh";
-    } else if (inside && !line.empty()) {
-      line = line.substr(0, line.find(" #"));
-      commands.push_back(line.substr(0, line.find_last_not_of(' ') + 1));
-    }
-  }
-  return commands;
-}
 
 /// Rows "| what | number unit |" between the markers.
 std::vector<std::pair<std::string, double>> table_rows(const std::string& text) {
@@ -68,24 +46,12 @@ TEST(Readme, BeginsWithExactlyTwoCommandsThatAreInTheTree) {
     EXPECT_EQ(fs::status(fs::path(LIGHTSTRIPE_SOURCE_DIR) / script).permissions() & fs::perms::owner_exec, fs::perms::owner_exec);
 }
 
-TEST(Readme, LinksLeadToFiles) {
-  const std::string text = readme();
-  const std::regex link(R"(\]\(([^)]+)\))");
-  for (std::sregex_iterator it(text.begin(), text.end(), link), end; it != end; ++it)
-    EXPECT_TRUE(fs::exists(fs::path(LIGHTSTRIPE_SOURCE_DIR) / (*it)[1].str())) << (*it)[1];
-}
+TEST(Readme, LinksLeadToFiles) { expect_links_lead_to_files(LIGHTSTRIPE_SOURCE_DIR "/README.md"); }
 
 TEST(Readme, CommandsForTheOwnRigRunAsTheyStand) {
   const TemporaryFolder folder;
-  ASSERT_EQ(run_lightstripe("simulate testdata/one_sensor.yaml -o " + quoted(folder.path())).exit_code, 0);
-  fs::rename(folder / "calibration.yaml", folder / "session.yaml");
-  fs::copy(folder / "scan/solo/0002.png", folder / "frame.png");
-  fs::create_directories(folder / "build/bin");
-  fs::create_symlink(LIGHTSTRIPE_BINARY, folder / "build/bin/lightstripe");
-  for (const auto& command : commands_of(readme())) {
-    if (command.starts_with("scripts/")) continue;
-    EXPECT_EQ(std::system(("cd " + quoted(folder.path()) + " && " + command).c_str()), 0) << command;
-  }
+  prepare_own_rig(folder);
+  expect_commands_run(LIGHTSTRIPE_SOURCE_DIR "/README.md", folder);
   for (const std::string file : {"rig.yaml", "cloud.ply", "profiles.csv", "cloud.png", "stripes.csv", "overlay/frame.png"})
     EXPECT_TRUE(fs::exists(folder / file)) << file;
 }

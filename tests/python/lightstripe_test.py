@@ -5,6 +5,7 @@ import csv
 import gc
 import os
 import pathlib
+import re
 import subprocess
 import threading
 
@@ -155,3 +156,30 @@ def test_a_missing_file_is_an_error_with_its_name(tmp_path):
     for read in (lightstripe.read_rig, lightstripe.read_profiles, lightstripe.read_image):
         with pytest.raises(lightstripe.Error, match="nothing-here"):
             read(tmp_path / "nothing-here")
+
+
+def test_the_page_about_the_library_runs_as_it_stands(scan, tmp_path, monkeypatch):
+    page = (SOURCE / "docs/how-to/use_as_a_library.md").read_text()
+    blocks = re.findall(r"```python\n(.*?)```", page, re.S)
+    assert blocks
+    (tmp_path / "rig.yaml").write_bytes((scan / "truth/rig.yaml").read_bytes())
+    (tmp_path / "frame.png").write_bytes((scan / "scan/solo/0002.png").read_bytes())
+    monkeypatch.chdir(tmp_path)
+    for block in blocks:
+        exec(compile(block, "use_as_a_library.md", "exec"), {})
+    assert lightstripe.read_profiles("profiles.csv")[0].points.size > 100
+
+
+@pytest.mark.parametrize("true_width", [4, 6, 10])
+def test_a_width_up_to_twice_the_true_one_costs_little_and_half_of_it_the_line(true_width):
+    # A bar with soft edges and the noise of a good camera; 0.005 px is what that noise leaves at the true width.
+    rows, columns = np.mgrid[0:200, 0:300]
+    across = rows - (100.3 + 0.04 * columns)
+    bar = (np.tanh((across + true_width / 2) / 0.7) - np.tanh((across - true_width / 2) / 0.7)) / 2
+    noise = np.random.default_rng(1).normal(0, 1.5, bar.shape)
+    image = np.clip(20 + 170 * bar + noise, 0, 255).astype(np.uint8)
+    for share in (1, 1.5, 2):
+        (points,) = lightstripe.extract(image, stripe_width=share * true_width).stripes
+        points = points[(points["x"] > 10) & (points["x"] < 290)]
+        assert np.std(points["y"] - 0.04 * points["x"]) < 0.015, share
+    assert lightstripe.extract(image, stripe_width=0.3 * true_width).stripes == []

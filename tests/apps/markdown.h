@@ -1,0 +1,79 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+// What the README and the pages under docs/ show, to be run and compared.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <regex>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "command_line.h"
+
+namespace lightstripe {
+
+inline std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::stringstream in(text);
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  return lines;
+}
+
+/// The lines of the blocks ```language, without indent.
+inline std::vector<std::string> block_lines(const std::string& markdown, const std::string& language) {
+  std::vector<std::string> found;
+  bool inside = false;
+  for (std::string line : lines_of(markdown)) {
+    line.erase(0, line.find_first_not_of(' '));
+    if (line.starts_with("```")) {
+      inside = line == "```" + language;
+    } else if (inside && !line.empty()) {
+      found.push_back(line);
+    }
+  }
+  return found;
+}
+
+/// The commands of the sh blocks, without comments.
+inline std::vector<std::string> commands_of(const std::string& markdown) {
+  std::vector<std::string> commands;
+  for (const std::string& line : block_lines(markdown, "sh")) {
+    const std::string command = line.substr(0, line.find(" #"));
+    commands.push_back(command.substr(0, command.find_last_not_of(' ') + 1));
+  }
+  return commands;
+}
+
+/// Every relative link of a page leads to a file.
+inline void expect_links_lead_to_files(const std::filesystem::path& page) {
+  const std::string text = text_of(page);
+  const std::regex link(R"(\]\(([^)]+)\))");
+  for (std::sregex_iterator it(text.begin(), text.end(), link), end; it != end; ++it)
+    EXPECT_TRUE(std::filesystem::exists(page.parent_path() / (*it)[1].str())) << page << ": " << (*it)[1];
+}
+
+/// A folder in which the pages' commands find what they name: session.yaml, scan.yaml, frame.png, scene.yaml,
+/// configs, build/bin/lightstripe.
+inline void prepare_own_rig(const TemporaryFolder& folder) {
+  namespace fs = std::filesystem;
+  ASSERT_EQ(run_lightstripe("simulate testdata/one_sensor.yaml -o " + quoted(folder.path())).exit_code, 0);
+  fs::rename(folder / "calibration.yaml", folder / "session.yaml");
+  fs::copy(folder / "scan/solo/0002.png", folder / "frame.png");
+  fs::copy(LIGHTSTRIPE_SOURCE_DIR "/testdata/one_sensor.yaml", folder / "scene.yaml");
+  fs::create_directories(folder / "build/bin");
+  fs::create_symlink(LIGHTSTRIPE_BINARY, folder / "build/bin/lightstripe");
+}
+
+/// Runs the page's commands in the folder, but for those that build or install.
+inline void expect_commands_run(const std::filesystem::path& page, const TemporaryFolder& folder) {
+  for (const auto& command : commands_of(text_of(page))) {
+    if (command.starts_with("scripts/") || command.starts_with("cmake --install")) continue;
+    EXPECT_EQ(std::system(("cd " + quoted(folder.path()) + " && " + command).c_str()), 0)
+        << page << ": " << command;
+  }
+}
+
+}  // namespace lightstripe
