@@ -83,6 +83,7 @@ void add_calibrate_command(CLI::App& app, Command& run);
 void add_reconstruct_command(CLI::App& app, Command& run);
 void add_simulate_command(CLI::App& app, Command& run);
 void add_demo_command(CLI::App& app, Command& run);
+void add_verify_command(CLI::App& app, Command& run);
 void add_bench_command(CLI::App& app, Command& run);
 
 }  // namespace lightstripe
