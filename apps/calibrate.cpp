@@ -4,8 +4,12 @@
 
 #include <fmt/format.h>
 
+#include "apps/board_overlay.h"
+#include "apps/calibration_report.h"
 #include "apps/run_record.h"
+#include "core/error.h"
 #include "io/atomic_file.h"
+#include "io/camera_file.h"
 #include "io/rig_file.h"
 
 namespace lightstripe {
@@ -14,6 +18,7 @@ namespace {
 struct CalibrateArguments {
   CommonOptions common;
   std::string session;
+  CalibrationFiles files;
   Overrides extraction, calibration;
 };
 
@@ -43,6 +48,20 @@ std::string describe_lenses(const std::vector<LensChoice>& lenses) {
   return text;
 }
 
+/// Each sensor's camera as <name>.opencv.yaml, .ros.yaml and .cameramodel; what a format cannot hold is told.
+void write_cameras(const std::filesystem::path& folder, const Rig& rig) {
+  for (const Sensor& sensor : rig.sensors) {
+    const auto base = (folder / sensor.name).string();
+    write_file(base + ".opencv.yaml", opencv_camera_yaml(sensor.camera));
+    try {
+      write_file(base + ".cameramodel", mrcal_cameramodel(sensor.camera, sensor.rig_from_camera.inverse()));
+      write_file(base + ".ros.yaml", ros_camera_info_yaml(sensor.camera, sensor.name));
+    } catch (const Error& error) {
+      warn(sensor.name + ": " + error.what());
+    }
+  }
+}
+
 }  // namespace
 
 std::string describe_calibration(const SessionObservations& seen, const CalibrationResult& result) {
@@ -57,12 +76,16 @@ std::string describe_calibration(const SessionObservations& seen, const Calibrat
   if (quality.section_shape_sigma_mm > 0)
     text += fmt::format("predicted error of a section: {:.4f} mm in shape, {:.3f} mm in place\n",
                         quality.section_shape_sigma_mm, quality.section_absolute_sigma_mm);
+  if (quality.cross_validation_ratio > 0)
+    text += fmt::format("every other view against the rest: sections differ by {:.2f} times the prediction\n",
+                        quality.cross_validation_ratio);
+  if (!quality.weakest.empty()) text += "weakest: " + quality.weakest + "\n";
   while (!text.empty() && text.back() == '\n') text.pop_back();
   return text;
 }
 
 int calibrate_session(const std::string& session_file, const Overrides& extraction, const Overrides& calibration,
-                      const CommonOptions& common) {
+                      const CommonOptions& common, const CalibrationFiles& files) {
   const ThreadLimit limit(common);
   const Session session = read_session(session_file);
   ExtractionOptions extraction_options;
@@ -76,9 +99,15 @@ int calibrate_session(const std::string& session_file, const Overrides& extracti
   const CalibrationResult result = calibrate_rig(seen.observations, calibration_options);
   say(common, describe_calibration(seen, result));
   for (const auto& warning : result.rig.quality.warnings) warn(warning);
+  if (!files.overlay.empty()) write_overlays(files.overlay, seen.pictures);
+  if (!files.report.empty()) {
+    write_file(files.report, calibration_report(seen, result));
+    say(common, "report -> " + files.report);
+  }
   const std::string output = common.output.empty() ? "rig.yaml" : common.output;
   if (!result.summary.usable) return not_usable(result.summary.message + " (" + output + " is not written)");
   write_file(output, rig_to_yaml(result.rig));
+  if (!files.camera_folder.empty()) write_cameras(files.camera_folder, result.rig);
   write_run_record(output, "calibrate", {session_file},
                    "extraction:\n" + indented(dump_yaml(extraction_options)) + "calibration:\n" +
                        indented(dump_yaml(calibration_options)));
@@ -91,11 +120,15 @@ void add_calibrate_command(CLI::App& app, Command& run) {
   auto arguments = std::make_shared<CalibrateArguments>();
   command->add_option("session", arguments->session, "calibration session (YAML)")->required();
   add_common_options(*command, arguments->common, "rig file (default: rig.yaml)");
+  command->add_option("--report", arguments->files.report, "calibration.html: verdict, residuals, uncertainty, pictures");
+  command->add_option("--overlay", arguments->files.overlay, "folder for the pictures with corners and stripes drawn in");
+  command->add_option("--cameras", arguments->files.camera_folder, "folder for the cameras as OpenCV, ROS and mrcal read them");
   add_field_options<ExtractionOptions>(*command, "extraction.", arguments->extraction);
   add_field_options<CalibrationOptions>(*command, "calibration.", arguments->calibration);
   command->callback([arguments, &run] {
     run = [arguments] {
-      return calibrate_session(arguments->session, arguments->extraction, arguments->calibration, arguments->common);
+      return calibrate_session(arguments->session, arguments->extraction, arguments->calibration, arguments->common,
+                               arguments->files);
     };
   });
 }

@@ -31,6 +31,7 @@ int run(int argc, char** argv) {
   lightstripe::add_demo_command(app, command);
   lightstripe::add_extract_command(app, command);
   lightstripe::add_calibrate_command(app, command);
+  lightstripe::add_verify_command(app, command);
   lightstripe::add_reconstruct_command(app, command);
   lightstripe::add_merge_command(app, command);
   lightstripe::add_simulate_command(app, command);

@@ -9,6 +9,7 @@
 #include "apps/calibrate.h"
 #include "apps/progress.h"
 #include "core/error.h"
+#include "io/camera_file.h"
 #include "io/images.h"
 #include "io/tables.h"
 
@@ -29,6 +30,7 @@ struct ViewTask {
 
 struct ViewResult {
   std::optional<BoardView> view;
+  SeenPicture picture;
   int width = 0, height = 0;
   std::vector<RejectedImage> rejected;
 };
@@ -106,6 +108,7 @@ ViewResult observe_view(const ViewTask& task, const Session& session, const Extr
   result.width = board.width;
   result.height = board.height;
   const std::string name = task.motion ? task.pose : task.board.filename().string();
+  result.picture = {sensor.name, name, detection.reason, task.board, task.laser, detection.corners, {}};
   if (!detection.found) {
     result.rejected.push_back({sensor.name, name, detection.reason});
     return result;
@@ -124,6 +127,8 @@ ViewResult observe_view(const ViewTask& task, const Session& session, const Extr
     const StripeOnBoard stripe = find_stripe_on_board(laser, single ? ImageView8() : dark.view(), detection.corners,
                                                       session.target, sensor.laser_planes, extraction);
     view.stripes = stripe.planes;
+    result.picture.stripes = stripe.planes;
+    if (!stripe.reason.empty()) result.picture.reason = "stripe: " + stripe.reason;
     if (!stripe.reason.empty()) result.rejected.push_back({sensor.name, name, "stripe: " + stripe.reason});
   }
   result.view = std::move(view);
@@ -138,6 +143,8 @@ CalibrationObservations empty_observations(const Session& session) {
     SensorObservations seen;
     seen.name = sensor.name;
     seen.laser_planes = sensor.laser_planes;
+    if (sensor.camera)
+      seen.given_camera = GivenCamera{read_camera_file((session.folder / *sensor.camera).string()), sensor.camera_fixed};
     observations.sensors.push_back(std::move(seen));
   }
   if (session.motion) {
@@ -161,6 +168,14 @@ void check_size(SensorObservations& sensor, const ViewTask& task, const ViewResu
                 fmt::format("is {} x {} px, the sensor's other images {} x {}", result.width, result.height, sensor.width,
                             sensor.height),
                 "give images of one camera and one setting");
+  if (!sensor.given_camera) return;
+  Camera& camera = sensor.given_camera->camera;
+  if (camera.width == 0) camera.width = sensor.width, camera.height = sensor.height;
+  if (camera.width != sensor.width || camera.height != sensor.height)
+    throw Error(task.board.string(),
+                fmt::format("is {} x {} px, the given camera of {} {} x {}", sensor.width, sensor.height, sensor.name,
+                            camera.width, camera.height),
+                "give the camera of this picture size");
 }
 
 }  // namespace
@@ -185,6 +200,7 @@ SessionObservations observe_session(const Session& session, const ExtractionOpti
     SensorObservations& sensor = seen.observations.sensors[static_cast<std::size_t>(tasks[i].sensor)];
     check_size(sensor, tasks[i], results[i]);
     ++seen.images;
+    seen.pictures.push_back(std::move(results[i].picture));
     seen.rejected.insert(seen.rejected.end(), results[i].rejected.begin(), results[i].rejected.end());
     if (!results[i].view) continue;
     ++seen.boards_found;

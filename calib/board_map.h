@@ -25,7 +25,8 @@ struct BoardMap {
   Eigen::Matrix2d derivative(const Eigen::Vector2d& pixel) const;
 };
 
-/// Nothing where the corners lie on a line. `corners` in the order of Target::corner.
+/// Nothing where the corners lie on a line. `corners` in the order of Target::corner; unseen ones are passed
+/// over.
 std::optional<BoardMap> fit_board_map(const std::vector<Eigen::Vector2d>& corners, const Target& target);
 
 }  // namespace lightstripe

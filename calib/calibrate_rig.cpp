@@ -7,12 +7,14 @@
 #include <cmath>
 
 #include "calib/choose_lens.h"
+#include "calib/diagnosis.h"
 #include "calib/initial_values.h"
 #include "calib/joint_adjustment.h"
 #include "calib/measurements.h"
 #include "calib/rig_frame.h"
 #include "calib/uncertainty.h"
 #include "calib/verdict.h"
+#include "calib/view_geometry.h"
 #include "core/error.h"
 
 namespace lightstripe {
@@ -27,6 +29,10 @@ void check(const CalibrationOptions& o) {
   positive("robust_scale", o.robust_scale);
   positive("outlier_sigma", o.outlier_sigma);
   positive("max_iterations", o.max_iterations);
+  if (o.range_near_mm != 0 || o.range_far_mm != 0) {
+    positive("range_near_mm", o.range_near_mm);
+    positive("range_far_mm - range_near_mm", o.range_far_mm - o.range_near_mm);
+  }
 }
 
 void append(std::vector<std::string>& to, std::vector<std::string> from) {
@@ -54,6 +60,15 @@ std::vector<LensModel> models_of(const std::vector<LensChoice>& choices) {
   return lenses;
 }
 
+/// The measuring range: declared, or where boards showed stripes and half of that beyond on both sides.
+std::array<double, 2> depth_range(const Measurements& measurements, const JointAdjustment& adjustment,
+                                  int sensor, const CalibrationOptions& options) {
+  if (options.range_far_mm > 0) return {options.range_near_mm, options.range_far_mm};
+  const DepthRange seen = stripe_depths(measurements, adjustment.state, adjustment.measurements, sensor);
+  const double beyond = 0.5 * (seen.far_mm - seen.near_mm);
+  return {std::max(0.0, seen.near_mm - beyond), seen.far_mm + beyond};
+}
+
 /// The stages in their order; throws NotUsable with what was found so far in `result`.
 void calibrate(const CalibrationObservations& observations, const CalibrationOptions& options,
                CalibrationResult& result) {
@@ -73,12 +88,23 @@ void calibrate(const CalibrationObservations& observations, const CalibrationOpt
 
   Rig rig = rig_of(measurements, adjustment.state, observations.up);
   result.rig.sensors = std::move(rig.sensors);
+  for (std::size_t s = 0; s < result.rig.sensors.size(); ++s)
+    result.rig.sensors[s].depth_range_mm =
+        depth_range(measurements, adjustment, static_cast<int>(s), options);
   result.rig.motion = rig.motion;
   append(quality.warnings, warnings_about(measurements, adjustment, result.summary.views));
   quality.sigma = parameter_sigmas(measurements, adjustment);
   const auto section = section_uncertainty(measurements, adjustment, observations.up);
   quality.section_shape_sigma_mm = section.shape_mm;
   quality.section_absolute_sigma_mm = section.absolute_mm;
+  const auto diagnosis =
+      std::make_shared<CalibrationDiagnosis>(diagnose(measurements, adjustment, observations.up, options));
+  result.diagnosis = diagnosis;
+  quality.cross_validation_ratio = diagnosis->cross_validation.ratio();
+  quality.weakest = diagnosis->weakest;
+  append(quality.warnings, warnings_about(diagnosis->cross_validation));
+  refuse_parallel_lasers(measurements, adjustment.state);
+  refuse_extrapolation(measurements, adjustment, options);
   refuse_uncertain_section(adjustment, section.shape_mm);
   refuse_oblong_pixels(measurements, adjustment.state);
   refuse_folded_image(measurements, adjustment.state);

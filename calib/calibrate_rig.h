@@ -4,6 +4,7 @@
 // sensor-to-sensor transforms and motion.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,8 @@ struct CalibrationOptions {
   LensModel lens = LensModel::kAuto;  ///< auto: chosen for each sensor by cross-validation, see choose_lens()
   bool board_warp = true;             ///< find the bow of the board as well
   int max_iterations = 100;           ///< of each round
+  /// The measuring range, depths in the cameras' frames; 0, 0: where boards showed stripes.
+  double range_near_mm = 0, range_far_mm = 0;
 };
 
 template <class V>
@@ -36,6 +39,9 @@ void visit_fields(V&& v, CalibrationOptions& o) {
     "Scheimpflug) | auto: by cross-validation");
   v("board_warp", o.board_warp, "find the bow of the board along x and y as well");
   v("max_iterations", o.max_iterations, "of each round of the adjustment");
+  v("range_near_mm", o.range_near_mm,
+    "nearest depth of the measuring range, mm from the camera; 0: not declared");
+  v("range_far_mm", o.range_far_mm, "farthest depth of the measuring range; 0: not declared");
 }
 
 /// Residuals of one view of one sensor; corners as length of the 2D residual, as OpenCV counts them.
@@ -69,9 +75,13 @@ struct CalibrationSummary {
   Eigen::Vector2d board_warp_mm = Eigen::Vector2d::Zero();  ///< bow at the board's middle, along x and y
 };
 
+struct CalibrationDiagnosis;
+
 struct CalibrationResult {
   Rig rig;
   CalibrationSummary summary;
+  std::shared_ptr<const CalibrationDiagnosis>
+      diagnosis;  ///< see diagnosis.h; none where no adjustment was made
 };
 
 CalibrationResult calibrate_rig(const CalibrationObservations& observations,

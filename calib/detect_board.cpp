@@ -9,6 +9,7 @@
 #include "calib/board_map.h"
 #include "calib/board_reasons.h"
 #include "calib/corner_grid.h"
+#include "calib/detect_charuco.h"
 #include "calib/observe_board.h"
 #include "core/error.h"
 
@@ -198,6 +199,7 @@ BoardDetection detect_board(ImageView8 image, const Target& target) {
   }
   const cv::Mat gray(image.height, image.width, CV_8UC1, const_cast<std::uint8_t*>(image.data),
                      static_cast<std::size_t>(image.stride));
+  if (target.type == TargetType::kCharuco) return detect_charuco(gray, target);
   int factor = 1;
   while (std::max(gray.cols, gray.rows) / factor > kMaxSearchSizePx) factor *= 2;
   const cv::Mat small = shrunk(gray, factor);

@@ -84,7 +84,8 @@ int turned_index(const Target& target, int index, int quarter_turns) {
 
 /// The quarter turns that map the board onto itself.
 std::vector<int> quarter_turns(const Target& target) {
-  const bool square = target.columns == target.rows && target.pitch_x == target.pitch_y;
+  const bool square = target.type == TargetType::kCheckerboard && target.columns == target.rows &&
+                      target.pitch_x == target.pitch_y;
   if (square) return {0, 1, 2, 3};
   if (target.half_turn_symmetric()) return {0, 2};
   return {0};

@@ -27,8 +27,10 @@ Motion motion_in_rig(const Measurements& measurements, const MotionState& state,
 
 Rigid3 rig_from_first(const RigState& state, MotionType motion, const Eigen::Vector3d& up) {
   const bool travels = motion == MotionType::kLinear && state.motion;
-  const Eigen::Vector3d x =
-      travels ? state.motion->direction : state.sensors.front().laser_planes.front().normal;
+  const auto& planes = state.sensors.front().laser_planes;
+  const Eigen::Vector3d x = travels          ? state.motion->direction
+                            : planes.empty() ? Eigen::Vector3d::UnitX()  // cameras only
+                                             : planes.front().normal;
   if (up.normalized().cross(x).norm() < std::sin(3 * std::numbers::pi / 180))
     throw NotUsable(
         travels ? "up: the hint is parallel to the direction of travel; give another direction"

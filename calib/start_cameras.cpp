@@ -9,6 +9,7 @@
 #include <opencv2/calib3d.hpp>
 #include <span>
 
+#include "calib/board_pose.h"
 #include "calib/initial_values.h"
 
 namespace lightstripe {
@@ -63,6 +64,30 @@ Eigen::Vector3d rough_normal(const ViewMeasurement& view, const Target& target, 
   K << f, 0, width / 2, 0, f, height / 2, 0, 0, 1;
   const Eigen::Vector3d normal = (K.transpose() * vanishing_line).normalized();
   return normal.z() < 0 ? Eigen::Vector3d(-normal) : normal;
+}
+
+/// Rms distance of the corners that both views show, px; large where they share none.
+double corner_distance_px(const ViewMeasurement& a, const ViewMeasurement& b) {
+  double sum = 0;
+  int count = 0;
+  for (std::size_t i = 0; i < a.corners.size(); ++i) {
+    if (!is_seen(a.corners[i]) || !is_seen(b.corners[i])) continue;
+    sum += (a.corners[i] - b.corners[i]).squaredNorm();
+    ++count;
+  }
+  return count > 0 ? std::sqrt(sum / count) : 1e9;
+}
+
+void refuse_single_pose(const std::vector<const ViewMeasurement*>& views, const std::string& sensor,
+                        const std::array<int, 2>& size) {
+  const double moved_px = 0.003 * std::hypot(size[0], size[1]);
+  for (const auto* view : views)
+    if (corner_distance_px(*view, *views.front()) > moved_px) return;
+  throw NotUsable(
+      fmt::format("sensor {}: the board has the same pose in all views; move it over the measuring range and "
+                  "tilt it by 20 "
+                  "to 45 degrees to different sides",
+                  sensor));
 }
 
 void refuse_parallel_boards(const std::vector<const ViewMeasurement*>& views, const Target& target,
@@ -140,20 +165,12 @@ CameraStart calibrate_camera_robustly(InitialValues& values, std::vector<std::si
   }
 }
 
-/// By the corners' rays, so that any lens model serves.
 Rigid3 pose_of(const ViewMeasurement& view, const Target& target, const Camera& camera) {
-  std::vector<Eigen::Vector2d> rays = view.corners;
-  for (auto& corner : rays) {
-    const auto ray = is_seen(corner) ? unproject(camera, corner) : std::nullopt;
-    corner = ray ? Eigen::Vector2d(ray->head<2>()) : unseen_corner();
-  }
-  const auto pixels = cv_points(rays);
-  if (pixels.size() < 4)
-    throw NotUsable(view.image + ": no ray of the given camera meets the board; check the camera");
-  cv::Mat rotation, translation;
-  cv::solvePnP(cv_board(target, rays), pixels, cv::Mat::eye(3, 3, CV_64F), cv::noArray(), rotation,
-               translation);
-  return rigid(rotation, translation);
+  const auto pose = board_pose(camera, target, view.corners);
+  if (!pose)
+    throw NotUsable(view.image +
+                    ": no ray of the given camera meets the board; check the camera that is given");
+  return *pose;
 }
 
 }  // namespace
@@ -170,6 +187,7 @@ void start_cameras(InitialValues& values) {
       indices.push_back(i);
       views.push_back(&m.views[i]);
     }
+    refuse_single_pose(views, m.sensor_names[sensor], m.image_sizes[sensor]);
     if (m.given_cameras[sensor]) {
       values.state.sensors.push_back({m.given_cameras[sensor]->camera, {}, {}});
       for (const std::size_t i : indices) {

@@ -69,6 +69,14 @@ bool near_edge(const StripePoint& point, const Vector2d& p_board, const Eigen::M
   return false;
 }
 
+/// In a ChArUco board's white squares the markers' edges shift the stripe's centre; the dark squares are
+/// plain.
+bool on_marker_square(const Vector2d& p_board, const Target& target) {
+  const auto column = static_cast<long>(std::floor(p_board.x() / target.pitch_x)),
+             row = static_cast<long>(std::floor(p_board.y() / target.pitch_y));
+  return target.type == TargetType::kCharuco && (column + row) % 2 != 0;
+}
+
 std::vector<Placed> on_board(const std::vector<Stripe>& stripes, const BoardMap& map, const Target& target) {
   std::vector<Placed> placed;
   for (const auto& stripe : stripes) {
@@ -77,7 +85,7 @@ std::vector<Placed> on_board(const std::vector<Stripe>& stripes, const BoardMap&
       const Vector2d pixel(point.x, point.y), p = map(pixel);
       const bool inside = p.x() > -target.pitch_x && p.x() < target.columns * target.pitch_x &&
                           p.y() > -target.pitch_y && p.y() < target.rows * target.pitch_y;
-      if (!inside) continue;
+      if (!inside || on_marker_square(p, target)) continue;
       const Eigen::Matrix2d J = map.derivative(pixel);
       placed.push_back({point, p, (J * Vector2d(point.normal_x, point.normal_y)).norm()});
     }

@@ -142,6 +142,12 @@ VectorXd section_of(const RigState& state, MotionType motion, const Eigen::Vecto
   return section;
 }
 
+MatrixXd section_jacobian(const Measurements& measurements, const JointAdjustment& adjustment,
+                          const Eigen::Vector3d& up, const std::vector<SectionSample>& samples) {
+  return derivative(
+      adjustment, [&](const RigState& state) { return section_of(state, measurements.motion, up, samples); });
+}
+
 MatrixXd without_rigid_motion(const VectorXd& section) {
   const Eigen::Index n = section.size() / 2;
   const Eigen::Map<const Eigen::Matrix2Xd> points(section.data(), 2, n);
@@ -159,11 +165,9 @@ SectionUncertainty section_uncertainty(const Measurements& measurements, const J
                                        const Eigen::Vector3d& up) {
   const auto samples = section_samples(measurements, adjustment.measurements);
   if (samples.size() < 3) return {};
-  const auto section = [&](const RigState& state) {
-    return section_of(state, measurements.motion, up, samples);
-  };
-  const MatrixXd J = derivative(adjustment, section);
-  const MatrixXd shape = without_rigid_motion(section(adjustment.state)) * J;
+  const MatrixXd J = section_jacobian(measurements, adjustment, up, samples);
+  const MatrixXd shape =
+      without_rigid_motion(section_of(adjustment.state, measurements.motion, up, samples)) * J;
   const auto rms = [&](const MatrixXd& of) {
     return std::sqrt((of * adjustment.covariance).cwiseProduct(of).sum() /
                      static_cast<double>(samples.size()));

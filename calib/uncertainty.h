@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "calib/joint_adjustment.h"
 
@@ -39,6 +40,10 @@ std::vector<SectionSample> section_samples(const Measurements& measurements,
 /// (y, z) in the rig frame of every sample, one after the other; a ray that misses the plane gives (0, 0).
 Eigen::VectorXd section_of(const RigState& state, MotionType motion, const Eigen::Vector3d& up,
                            const std::vector<SectionSample>& samples);
+
+/// d section_of / d(shared unknowns of the covariance), 2n x m.
+Eigen::MatrixXd section_jacobian(const Measurements& measurements, const JointAdjustment& adjustment,
+                                 const Eigen::Vector3d& up, const std::vector<SectionSample>& samples);
 
 /// Orthogonal projector that takes the rigid motions of the section's points (two shifts, one turn) out of a
 /// displacement of all of them; 2n x 2n.

@@ -6,14 +6,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "calib/view_geometry.h"
 
 namespace lightstripe {
 namespace {
-
-using Eigen::Vector3d;
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 /// Sums of squares of corners and stripe points.
 struct Sums {
@@ -37,36 +34,6 @@ std::vector<Sums> sums_by_view(const Measurements& measurements, const std::vect
   std::vector<Sums> sums(measurements.views.size());
   for (const auto& measurement : list) sums[measurement.view].add(measurement);
   return sums;
-}
-
-/// The largest angle between a board of the sensor and the mean of its boards, degrees.
-double tilt_spread_deg(const Measurements& measurements, const RigState& state, int sensor) {
-  std::vector<Vector3d> normals;
-  Vector3d mean = Vector3d::Zero();
-  for (const auto& view : measurements.views) {
-    if (view.sensor != sensor || view.pose < 0) continue;
-    normals.emplace_back(state.first_from_board[static_cast<std::size_t>(view.pose)].rotation *
-                         Vector3d::UnitZ());
-    mean += normals.back();
-  }
-  double spread = 0;
-  for (const auto& normal : normals)
-    spread = std::max(spread, std::acos(std::clamp(normal.dot(mean.normalized()), -1.0, 1.0)));
-  return spread / kDegree;
-}
-
-/// Diagonal of the part of the image where the sensor's stripes lay, as a share of the image's diagonal.
-double stripe_coverage(const Measurements& measurements, const std::vector<Measurement>& list, int sensor) {
-  Eigen::Vector2d low(1e9, 1e9), high(-1e9, -1e9);
-  for (const auto& measurement : list) {
-    const auto& view = measurements.views[measurement.view];
-    if (measurement.is_corner() || !measurement.used || view.sensor != sensor) continue;
-    const auto& point = view.stripes[static_cast<std::size_t>(measurement.plane)][measurement.index];
-    low = low.cwiseMin(Eigen::Vector2d(point.x, point.y));
-    high = high.cwiseMax(Eigen::Vector2d(point.x, point.y));
-  }
-  const auto& size = measurements.image_sizes[static_cast<std::size_t>(sensor)];
-  return (high - low).norm() / std::hypot(size[0], size[1]);
 }
 
 }  // namespace
@@ -150,6 +117,55 @@ void refuse_uncertain_section(const JointAdjustment& adjustment, double shape_si
                     shape_sigma_mm));
 }
 
+void refuse_parallel_lasers(const Measurements& measurements, const RigState& state) {
+  constexpr double kMinAngleDeg = 10;  // below it the stripe is smeared over the board
+  for (std::size_t s = 0; s < state.sensors.size(); ++s) {
+    for (std::size_t p = 0; p < state.sensors[s].laser_planes.size(); ++p) {
+      auto angles = laser_angles_deg(measurements, state, static_cast<int>(s), p);
+      if (angles.empty()) continue;
+      std::nth_element(angles.begin(), angles.begin() + static_cast<std::ptrdiff_t>(angles.size() / 2),
+                       angles.end());
+      const double median = angles[angles.size() / 2];
+      if (median < kMinAngleDeg)
+        throw NotUsable(
+            fmt::format("sensor {}: the boards are nearly parallel to the laser plane ({:.1f} degrees in "
+                        "half of the views), so "
+                        "that the stripe has no clear line; turn the board towards the camera, 30 to 90 "
+                        "degrees to the laser",
+                        measurements.sensor_names[s], median));
+    }
+  }
+}
+
+void refuse_extrapolation(const Measurements& measurements, const JointAdjustment& adjustment,
+                          const CalibrationOptions& options) {
+  constexpr double kMinCoverage = 0.12;     // of the image's diagonal
+  constexpr double kMinRangeCovered = 0.6;  // of the measuring range that the session declares
+  for (std::size_t s = 0; s < measurements.sensor_names.size(); ++s) {
+    const int sensor = static_cast<int>(s);
+    const auto& name = measurements.sensor_names[s];
+    if (adjustment.state.sensors[s].laser_planes.empty()) continue;
+    const double coverage = stripe_coverage(measurements, adjustment.measurements, sensor);
+    if (coverage < kMinCoverage)
+      throw NotUsable(
+          fmt::format("sensor {}: the boards' stripes cover {:.0f} % of the image's diagonal, all else would "
+                      "be extrapolated; hold "
+                      "the board in all of the measuring range",
+                      name, 100 * coverage));
+    const double range = options.range_far_mm - options.range_near_mm;
+    if (!(range > 0)) continue;
+    const auto seen = stripe_depths(measurements, adjustment.state, adjustment.measurements, sensor);
+    const double covered =
+        std::min(seen.far_mm, options.range_far_mm) - std::max(seen.near_mm, options.range_near_mm);
+    if (covered < kMinRangeCovered * range)
+      throw NotUsable(
+          fmt::format("sensor {}: the boards' stripes lie between {:.0f} and {:.0f} mm of depth, the "
+                      "measuring range is {:.0f} to "
+                      "{:.0f} mm; hold the board nearer and farther too",
+                      name, seen.near_mm, seen.far_mm, options.range_near_mm, options.range_far_mm));
+  }
+}
+
 void refuse_oblong_pixels(const Measurements& measurements, const RigState& state) {
   constexpr double kMaxAspect = 1.04;  // no machine vision camera; a sensor tilted by 10 degrees gives 1.015
   for (std::size_t s = 0; s < state.sensors.size(); ++s) {
@@ -198,10 +214,26 @@ std::vector<std::string> warnings_about(const Measurements& measurements, const 
           "laser plane is extrapolated",
           name, 100 * coverage));
   }
+  constexpr double kBowed_mm = 0.05;
+  const Eigen::Vector2d& warp = adjustment.state.board_warp_mm;
+  if (warp.cwiseAbs().maxCoeff() > kBowed_mm)
+    warnings.push_back(fmt::format("the board is bowed by {:.2f} mm along x and {:.2f} mm along y; that is taken into "
+                                   "account, a flatter board is surer",
+                                   warp.x(), warp.y()));
   if (measurements.motion != MotionType::kLinear)
     warnings.push_back(
         "no linear motion was calibrated: x is the first laser plane's normal, not the direction of travel");
   return warnings;
+}
+
+std::vector<std::string> warnings_about(const CrossValidation& cross_validation) {
+  constexpr double kMaxRatio = 2;
+  if (!cross_validation.done || cross_validation.ratio() < kMaxRatio) return {};
+  return {
+      fmt::format("two halves of the views give sections that differ by {:.4f} mm, {:.1f} times what noise "
+                  "explains: a lens "
+                  "model too lean (calibration.lens), a board that is not rigid, or a laser that is not flat",
+                  cross_validation.difference_mm, cross_validation.ratio())};
 }
 
 }  // namespace lightstripe

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "calib/diagnosis.h"
 #include "calib/joint_adjustment.h"
 #include "core/rig.h"
 
@@ -26,6 +27,13 @@ void refuse_bad_adjustment(const Measurements& measurements, const JointAdjustme
 /// Throws NotUsable where the predicted error of the section's shape is out of all proportion to the range.
 void refuse_uncertain_section(const JointAdjustment& adjustment, double shape_sigma_mm);
 
+/// Throws NotUsable where half of a sensor's boards stood within 10 degrees of the laser plane.
+void refuse_parallel_lasers(const Measurements& measurements, const RigState& state);
+
+/// Throws NotUsable where the stripes cover too little of the image, or of the measuring range declared.
+void refuse_extrapolation(const Measurements& measurements, const JointAdjustment& adjustment,
+                          const CalibrationOptions& options);
+
 /// Throws NotUsable where the pixels found are far from square: the pitch of the board is wrong in x or y.
 void refuse_oblong_pixels(const Measurements& measurements, const RigState& state);
 
@@ -35,5 +43,8 @@ void refuse_folded_image(const Measurements& measurements, const RigState& state
 /// Weak spots that do not forbid the use: views that hardly fit, little tilt, little coverage.
 std::vector<std::string> warnings_about(const Measurements& measurements, const JointAdjustment& adjustment,
                                         const std::vector<ViewResidual>& views);
+
+/// Whether two halves of the views contradict each other beyond the prediction.
+std::vector<std::string> warnings_about(const CrossValidation& cross_validation);
 
 }  // namespace lightstripe

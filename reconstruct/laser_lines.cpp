@@ -8,6 +8,8 @@
 #include <limits>
 #include <numeric>
 
+#include "reconstruct/laser_reach.h"
+
 namespace lightstripe {
 namespace {
 
@@ -92,17 +94,14 @@ std::vector<int> plane_order(const std::vector<LinePosition>& lines,
   return best;
 }
 
-}  // namespace
-
-std::optional<std::vector<int>> assign_laser_planes(const std::vector<Stripe>& stripes,
-                                                    const Sensor& sensor) {
+/// As many stripes as planes, paired in order; empty where that says nothing.
+std::vector<int> paired_in_order(const std::vector<Stripe>& stripes, const Sensor& sensor) {
   const auto& planes = sensor.laser_planes;
-  if (planes.size() == 1) return std::vector<int>(stripes.size(), 0);
   const bool has_empty =
       std::any_of(stripes.begin(), stripes.end(), [](const Stripe& s) { return s.points.empty(); });
-  if (planes.empty() || stripes.size() != planes.size() || has_empty) return std::nullopt;
+  if (planes.empty() || stripes.size() != planes.size() || has_empty) return {};
   const auto across = direction_across(planes);
-  if (!across) return std::nullopt;
+  if (!across) return {};
 
   Vector2d centre = Vector2d::Zero();
   for (const Stripe& s : stripes)
@@ -117,11 +116,22 @@ std::optional<std::vector<int>> assign_laser_planes(const std::vector<Stripe>& s
   const std::vector<int> stripe_order = sorted_indices(positions);
   std::sort(positions.begin(), positions.end());
   const std::vector<int> planes_in_order = plane_order(lines, positions);
-  if (planes_in_order.empty()) return std::nullopt;
+  if (planes_in_order.empty()) return {};
   std::vector<int> plane_of_stripe(stripes.size());
   for (std::size_t i = 0; i < stripes.size(); ++i)
     plane_of_stripe[static_cast<std::size_t>(stripe_order[i])] = planes_in_order[i];
   return plane_of_stripe;
+}
+
+}  // namespace
+
+std::vector<std::optional<int>> assign_laser_planes(const std::vector<Stripe>& stripes,
+                                                    const Sensor& sensor) {
+  if (sensor.laser_planes.size() == 1) return std::vector<std::optional<int>>(stripes.size(), 0);
+  if (sensor.depth_range_mm[1] > 0) return assign_by_reach(stripes, sensor);
+  const std::vector<int> paired = paired_in_order(stripes, sensor);
+  if (paired.empty()) return std::vector<std::optional<int>>(stripes.size());
+  return {paired.begin(), paired.end()};
 }
 
 }  // namespace lightstripe

@@ -120,11 +120,11 @@ void triangulate_stripes(const std::vector<Stripe>& stripes, const Rig& rig, int
   const auto plane_of_line = assign_laser_planes(stripes, of);
   for (std::size_t line = 0; line < stripes.size(); ++line) {
     const auto& points = stripes[line].points;
-    if (!plane_of_line) {
+    if (!plane_of_line[line]) {
       profile.num_missed += static_cast<int>(points.size());
       continue;
     }
-    const Plane& plane = of.laser_planes[static_cast<std::size_t>((*plane_of_line)[line])];
+    const Plane& plane = of.laser_planes[static_cast<std::size_t>(*plane_of_line[line])];
     for (const StripePoint& seen : points) {
       const auto met = meet_plane(of.camera, plane, seen);
       if (!met) {

@@ -22,6 +22,8 @@ struct Sensor {
   Camera camera;
   std::vector<Plane> laser_planes;  ///< camera frame, n.X = d with d > 0
   Rigid3 rig_from_camera;
+  /// Nearest and farthest depth (z of the camera frame, mm) at which something is measured; 0, 0: not known.
+  std::array<double, 2> depth_range_mm{0, 0};
 };
 
 enum class MotionType { kNone, kLinear, kRotary };
@@ -54,6 +56,8 @@ struct RigQuality {
   std::map<std::string, double> sigma;      ///< 1-sigma of every parameter by name, e.g. "gauge.camera.fx"
   double section_shape_sigma_mm = 0;        ///< predicted, rms over the measuring area, after a rigid move; 0 = unknown
   double section_absolute_sigma_mm = 0;     ///< predicted, rms over the measuring area; 0 = unknown
+  double cross_validation_ratio = 0;        ///< sections by two halves of the views: difference over prediction; 0 = unknown
+  std::string weakest;                      ///< the least certain direction, in words
   std::vector<std::string> warnings;
 };
 

@@ -33,6 +33,8 @@ void visit_fields(V&& v, QualityLists& o) {
   v("sensors", o.quality.sensors);
   v("section_shape_sigma_mm", o.quality.section_shape_sigma_mm);
   v("section_absolute_sigma_mm", o.quality.section_absolute_sigma_mm);
+  v("cross_validation_ratio", o.quality.cross_validation_ratio);
+  v("weakest", o.quality.weakest);
   v("warnings", o.quality.warnings);
   v("sigma", o.sigma);
 }
@@ -75,6 +77,7 @@ RigSensorFields sensor_fields(const Sensor& sensor) {
   const Eigen::Quaterniond& q = sensor.rig_from_camera.rotation;
   fields.rig_from_camera =
       TransformFields{std::array<double, 4>{q.w(), q.x(), q.y(), q.z()}, sensor.rig_from_camera.translation};
+  if (sensor.depth_range_mm[1] > 0) fields.depth_range = sensor.depth_range_mm;
   return fields;
 }
 

@@ -56,6 +56,7 @@ struct RigSensorFields {
   std::optional<CameraFields> camera;
   std::vector<PlaneFields> laser_planes;
   std::optional<TransformFields> rig_from_camera;
+  std::optional<std::array<double, 2>> depth_range;  ///< mm
 };
 template <class V>
 void visit_fields(V&& v, RigSensorFields& o) {
@@ -64,6 +65,7 @@ void visit_fields(V&& v, RigSensorFields& o) {
   v("camera", o.camera);
   v("laser_planes", o.laser_planes);
   v("rig_from_camera", o.rig_from_camera);
+  v("depth_range", o.depth_range);
 }
 
 struct RigMotionFields {

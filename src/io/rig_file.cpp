@@ -97,6 +97,12 @@ Sensor checked_sensor(const RigSensorFields& fields, const Place& place) {
         checked_plane(fields.laser_planes[i], place / ("laser_planes[" + std::to_string(i) + "]")));
   sensor.rig_from_camera =
       checked_transform((place / "rig_from_camera").given(fields.rig_from_camera), place / "rig_from_camera");
+  if (fields.depth_range) {
+    sensor.depth_range_mm = *fields.depth_range;
+    (place / "depth_range")
+        .require(sensor.depth_range_mm[0] >= 0 && sensor.depth_range_mm[1] > sensor.depth_range_mm[0], "is no range",
+                 "give the nearest and the farthest depth in mm");
+  }
   return sensor;
 }
 

@@ -43,17 +43,23 @@ struct TargetFields {
   TargetType type = TargetType::kCheckerboard;
   std::optional<std::array<int, 2>> inner_corners;
   std::optional<SquareSize> square;
+  std::optional<double> marker;
+  std::optional<std::string> dictionary;
 };
 template <class V>
 void visit_fields(V&& v, TargetFields& o) {
   v("type", o.type);
   v("inner_corners", o.inner_corners);
   v("square", o.square);
+  v("marker", o.marker);
+  v("dictionary", o.dictionary);
 }
 
 struct SensorFields {
   std::optional<std::string> name, board, laser;
   std::optional<int> laser_planes;
+  std::optional<std::string> camera;
+  std::optional<bool> camera_fixed;
 };
 template <class V>
 void visit_fields(V&& v, SensorFields& o) {
@@ -61,6 +67,8 @@ void visit_fields(V&& v, SensorFields& o) {
   v("board", o.board);
   v("laser", o.laser);
   v("laser_planes", o.laser_planes);
+  v("camera", o.camera);
+  v("camera_fixed", o.camera_fixed);
 }
 
 struct MotionFields {
@@ -117,8 +125,6 @@ struct Checker {
 
 Target checked_target(const std::optional<TargetFields>& fields, const Checker& check) {
   const TargetFields given = check.given(fields, "target");
-  check.require(given.type == TargetType::kCheckerboard, "target.type",
-                "charuco targets are not supported by this version", "use a checkerboard");
   const auto [columns, rows] = check.given(given.inner_corners, "target.inner_corners");
   for (const int corners : {columns, rows}) {
     check.require(
@@ -128,7 +134,17 @@ Target checked_target(const std::optional<TargetFields>& fields, const Checker& 
   const SquareSize square = check.given(given.square, "target.square");
   check.require(square.x > 0 && square.y > 0, "target.square", "is not positive",
                 "give the side of a square in mm");
-  return {given.type, columns, rows, square.x, square.y};
+  Target target{given.type, columns, rows, square.x, square.y};
+  if (given.type == TargetType::kCheckerboard) {
+    check.require(!given.marker && !given.dictionary, "target", "has marker or dictionary, which a checkerboard has not",
+                  "say type: charuco, or leave them out");
+    return target;
+  }
+  target.marker_mm = check.given(given.marker, "target.marker");
+  check.require(target.marker_mm > 0 && target.marker_mm < std::min(square.x, square.y), "target.marker",
+                "is no side of a marker within a square", "give it in mm, smaller than square");
+  if (given.dictionary) target.dictionary = *given.dictionary;
+  return target;
 }
 
 std::vector<SessionSensor> checked_sensors(const std::vector<SensorFields>& fields, const Checker& check) {
@@ -147,7 +163,11 @@ std::vector<SessionSensor> checked_sensors(const std::vector<SensorFields>& fiel
     check.require(planes >= 1 && planes <= kMaxLaserPlanes, key + "laser_planes", "is out of range",
                   "give 1 to " + std::to_string(kMaxLaserPlanes));
     if (fields[i].laser) check.text(fields[i].laser, key + "laser");
-    sensors.push_back({name, check.text(fields[i].board, key + "board"), fields[i].laser, planes});
+    if (fields[i].camera) check.text(fields[i].camera, key + "camera");
+    check.require(fields[i].camera || !fields[i].camera_fixed, key + "camera_fixed",
+                  "says nothing without camera", "give the camera's file, or leave it out");
+    sensors.push_back({name, check.text(fields[i].board, key + "board"), fields[i].laser, planes,
+                       fields[i].camera, fields[i].camera_fixed.value_or(true)});
   }
   return sensors;
 }
@@ -186,9 +206,15 @@ std::string session_to_yaml(const Session& session) {
   SessionFields fields;
   const Target& target = session.target;
   fields.target = TargetFields{target.type, std::array<int, 2>{target.columns, target.rows},
-                               SquareSize{target.pitch_x, target.pitch_y}};
+                               SquareSize{target.pitch_x, target.pitch_y}, std::nullopt, std::nullopt};
+  if (target.type == TargetType::kCharuco) {
+    fields.target->marker = target.marker_mm;
+    fields.target->dictionary = target.dictionary;
+  }
   for (const SessionSensor& sensor : session.sensors) {
-    fields.sensors.push_back({sensor.name, sensor.board, sensor.laser, std::nullopt});
+    fields.sensors.push_back(
+        {sensor.name, sensor.board, sensor.laser, std::nullopt, sensor.camera, std::nullopt});
+    if (!sensor.camera_fixed) fields.sensors.back().camera_fixed = false;
     if (sensor.laser_planes != 1) fields.sensors.back().laser_planes = sensor.laser_planes;
   }
   if (session.motion) {

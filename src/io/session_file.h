@@ -22,6 +22,8 @@ struct SessionSensor {
   std::string board;                 ///< file pattern, laser off (or on, if `laser` is left out)
   std::optional<std::string> laser;  ///< file pattern, same poses, laser on
   int laser_planes = 1;
+  std::optional<std::string> camera{};  ///< file of known intrinsics, see read_camera_file()
+  bool camera_fixed = true;             ///< false: they are start values only
 };
 
 struct SessionMotion {

@@ -24,6 +24,16 @@ void write_mat(const std::filesystem::path& path, const cv::Mat& picture) {
   write_file(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
+cv::Mat bgr_of(const std::vector<std::uint8_t>& rgb, int width, int height) {
+  LIGHTSTRIPE_CHECK(width > 0 && height > 0 &&
+                        rgb.size() == static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 3,
+                    "an RGB picture has width * height * 3 bytes");
+  cv::Mat bgr;
+  cv::cvtColor(cv::Mat(height, width, CV_8UC3, const_cast<std::uint8_t*>(rgb.data())), bgr,
+               cv::COLOR_RGB2BGR);
+  return bgr;
+}
+
 }  // namespace
 
 void write_image(const std::filesystem::path& path, ImageView8 image) {
@@ -34,13 +44,13 @@ void write_image(const std::filesystem::path& path, ImageView8 image) {
 
 void write_rgb_image(const std::filesystem::path& path, const std::vector<std::uint8_t>& rgb, int width,
                      int height) {
-  LIGHTSTRIPE_CHECK(width > 0 && height > 0 &&
-                        rgb.size() == static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 3,
-                    "an RGB picture has width * height * 3 bytes");
-  cv::Mat bgr;
-  cv::cvtColor(cv::Mat(height, width, CV_8UC3, const_cast<std::uint8_t*>(rgb.data())), bgr,
-               cv::COLOR_RGB2BGR);
-  write_mat(path, bgr);
+  write_mat(path, bgr_of(rgb, width, height));
+}
+
+std::vector<std::uint8_t> encode_jpeg(const std::vector<std::uint8_t>& rgb, int width, int height) {
+  std::vector<std::uint8_t> bytes;
+  cv::imencode(".jpg", bgr_of(rgb, width, height), bytes, {cv::IMWRITE_JPEG_QUALITY, 80});
+  return bytes;
 }
 
 }  // namespace lightstripe

@@ -419,6 +419,72 @@ TEST(CalibrateRigRefuses, ALaserThroughTheCamera) {
   expect_refusal(observations, "the camera lies in the laser plane");
 }
 
+TEST(CalibrateRigRefuses, ASinglePose) {
+  auto observations = observe(rail_rig(1), perfect(6));
+  for (auto& view : observations.sensors[0].views) {
+    view.corners = observations.sensors[0].views[0].corners;
+    view.stripes = observations.sensors[0].views[0].stripes;
+  }
+  expect_refusal(observations, "the board has the same pose in all views");
+}
+
+/// A one-sensor session of boards that are turned by `turn` degrees out of the laser plane, about the stripe,
+/// and a few degrees about other axes.
+CalibrationObservations boards_near_the_laser_plane(const SyntheticRig& truth, double turn) {
+  auto observations = observe(truth, perfect(10));
+  observations.motion.reset();
+  const auto& sensor = truth.sensors[0];
+  const Vector3d n = sensor.laser_planes[0].normal;
+  const Vector3d line = n.cross(Vector3d::UnitZ()).normalized();
+  const Vector3d middle(50, 35, 0);
+  Random random(5);
+  for (auto& view : observations.sensors[0].views) {
+    const Vector3d z = Eigen::AngleAxisd((turn + random.uniform(-3, 3)) * kDegree, line) * n;
+    Eigen::Matrix3d R;
+    R << line, z.cross(line), z;
+    const Eigen::Quaterniond q = Eigen::Quaterniond(R) *
+                                 Eigen::AngleAxisd(random.uniform(-0.3, 0.3), Vector3d::UnitZ()) *
+                                 Eigen::AngleAxisd(random.uniform(-8, 8) * kDegree, Vector3d::UnitY());
+    const Vector3d through =
+        *intersect(sensor.laser_planes[0], Vector3d::Zero(),
+                   Vector3d(random.uniform(-0.03, 0.03), random.uniform(-0.03, 0.03), 1));
+    const Rigid3 cam_from_board{q, through - q * middle};
+    view.corners = testing::seen_corners(truth.target, sensor.camera, cam_from_board);
+    view.stripes = {testing::seen_stripe(truth.target, sensor, cam_from_board, 6)};
+  }
+  return observations;
+}
+
+TEST(CalibrateRigRefuses, BoardsParallelToTheLaserPlane) {
+  const auto truth = rail_rig(1);
+  expect_refusal(boards_near_the_laser_plane(truth, 5), "the boards are nearly parallel to the laser plane");
+  const auto result = calibrate_rig(boards_near_the_laser_plane(truth, 30));
+  EXPECT_THAT(result.summary.message, Not(HasSubstr("parallel to the laser plane")));
+}
+
+TEST(CalibrateRigRefuses, StripesInACornerOfTheImage) {
+  // What is left of each stripe lies in a window of 50 x 50 px.
+  auto observations = observe(rail_rig(1), noisy(20));
+  for (auto& view : observations.sensors[0].views)
+    std::erase_if(view.stripes[0],
+                  [](const StripePoint& p) { return std::hypot(p.x - 480, p.y - 350) > 50; });
+  expect_refusal(observations, "all else would be extrapolated");
+}
+
+TEST(CalibrateRigRefuses, AMeasuringRangeThatNoBoardReached) {
+  const auto observations = observe(rail_rig(), noisy(12));
+  CalibrationOptions options;
+  options.range_near_mm = 300;
+  options.range_far_mm = 900;
+  const auto result = calibrate_rig(observations, options);
+  EXPECT_FALSE(result.summary.usable);
+  EXPECT_THAT(result.summary.message,
+              HasSubstr("the measuring range is 300 to 900 mm; hold the board nearer"));
+  options.range_near_mm = 510;
+  options.range_far_mm = 590;
+  EXPECT_TRUE(calibrate_rig(observations, options).summary.usable);
+}
+
 TEST(CalibrateRigRefuses, AMotionThatStandsStill) {
   auto options = perfect(6);
   options.travel_mm = 0;

@@ -142,10 +142,26 @@ TEST(Session, NamesTheKeyThatIsWrong) {
               HasSubstr("did you mean 'red-excess'?"));
 }
 
-TEST(Session, SaysThatCharucoIsNotSupported) {
-  EXPECT_THAT(
-      session_complaint(with(kSession, "checkerboard", "charuco")),
-      HasSubstr("target.type: charuco targets are not supported by this version; use a checkerboard"));
+TEST(Session, ReadsACharucoTarget) {
+  EXPECT_THAT(session_complaint(with(kSession, "checkerboard", "charuco")), HasSubstr("target.marker: is missing"));
+  const TempFolder folder;
+  const Session session =
+      read_session(folder.write("s.yaml", with(kSession, "checkerboard", "charuco, marker: 7.5, dictionary: DICT_5X5_100")));
+  EXPECT_EQ(session.target.type, TargetType::kCharuco);
+  EXPECT_EQ(session.target.marker_mm, 7.5);
+  EXPECT_EQ(session.target.dictionary, "DICT_5X5_100");
+  EXPECT_THAT(session_complaint(with(kSession, "checkerboard", "checkerboard, marker: 7")), HasSubstr("say type: charuco"));
+}
+
+TEST(Session, ReadsGivenCameras) {
+  const TempFolder folder;
+  const Session session = read_session(folder.write(
+      "s.yaml", with(kSession, "name: gauge", "name: gauge\n    camera: cameras/gauge.yaml\n    camera_fixed: false")));
+  EXPECT_EQ(session.sensors[0].camera, "cameras/gauge.yaml");
+  EXPECT_FALSE(session.sensors[0].camera_fixed);
+  EXPECT_FALSE(session.sensors[1].camera);
+  EXPECT_THAT(session_complaint(with(kSession, "name: gauge", "name: gauge\n    camera_fixed: true")),
+              HasSubstr("camera_fixed"));
 }
 
 TEST(Scan, ReadsTheContractsExample) {

@@ -1,0 +1,15 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+// calibration.html: one file that opens offline.
+#pragma once
+
+#include <string>
+
+#include "apps/calibrate.h"
+
+namespace lightstripe {
+
+/// The whole page: verdict, uncertainty, residuals, rig, pictures. Libraries and pictures are inside.
+std::string calibration_report(const SessionObservations& seen, const CalibrationResult& result);
+
+}  // namespace lightstripe

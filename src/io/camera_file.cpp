@@ -1,0 +1,150 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+#include "io/camera_file.h"
+
+#include <algorithm>
+#include <array>
+
+#include "core/error.h"
+#include "io/atomic_file.h"
+#include "io/rig_file.h"
+#include "io/yaml_binding.h"
+
+namespace lightstripe {
+namespace {
+
+using detail::YamlNode;
+using detail::YamlPlace;
+
+constexpr std::size_t kMaxBytes = std::size_t{16} << 20;
+
+const YamlNode* find(const YamlNode& map, std::initializer_list<std::string_view> names) {
+  for (const YamlNode& item : map.items)
+    if (std::find(names.begin(), names.end(), item.key) != names.end()) return &item;
+  return nullptr;
+}
+
+const YamlNode& given(const YamlNode& map, std::initializer_list<std::string_view> names,
+                      const YamlPlace& place) {
+  const YamlNode* node = find(map, names);
+  if (!node) throw Error(place.file, "has no " + std::string(*names.begin()), "give a complete camera file");
+  return *node;
+}
+
+/// Numbers of a list, or of the data of an OpenCV or ROS matrix.
+std::vector<double> numbers(const YamlNode& node, const YamlPlace& place) {
+  const YamlNode* data = node.kind == YamlNode::Kind::kMap ? find(node, {"data"}) : &node;
+  if (!data)
+    detail::fail_at(place.child(node.key), node.line, "has no data",
+                    "give a matrix with rows, cols and data");
+  std::vector<double> values;
+  detail::read_field(*data, values, place.child(node.key));
+  return values;
+}
+
+int number(const YamlNode* node, const YamlPlace& place) {
+  int value = 0;
+  if (node) detail::read_field(*node, value, place.child(node->key));
+  return value;
+}
+
+/// OpenCV's YAML has a first line and tags that YAML 1.2 does not know.
+std::string plain_yaml(std::string text) {
+  if (text.starts_with("%YAML:")) text[0] = '#';
+  for (const std::string tag : {"!!opencv-matrix", "!<tag:yaml.org,2002:opencv-matrix>"})
+    for (auto at = text.find(tag); at != std::string::npos; at = text.find(tag)) text.erase(at, tag.size());
+  return text;
+}
+
+void set_distortion(Camera& camera, const std::vector<double>& terms, const YamlPlace& place) {
+  constexpr std::array<std::size_t, 6> kCounts{0, 4, 5, 8, 12, 14};
+  if (std::find(kCounts.begin(), kCounts.end(), terms.size()) == kCounts.end())
+    throw Error(place.file, "has " + std::to_string(terms.size()) + " distortion terms",
+                "give 4, 5, 8, 12 or 14 in OpenCV's order");
+  std::copy(terms.begin(), terms.end(), camera.distortion.begin());
+}
+
+/// OpenCV's FileStorage and ROS' camera_info differ in what stands beside these keys.
+Camera matrix_camera(const YamlNode& root, const YamlPlace& place) {
+  const YamlNode* model = find(root, {"distortion_model"});
+  if (model && model->text != "plumb_bob" && model->text != "rational_polynomial")
+    throw Error(place.file, "has the distortion model " + model->text,
+                "calibrate with plumb_bob or rational_polynomial, or leave the camera out");
+  const auto K = numbers(given(root, {"camera_matrix", "cameraMatrix", "K", "M1"}, place), place);
+  if (K.size() != 9)
+    throw Error(place.file, "has a camera matrix that is not 3 x 3", "give 9 numbers row by row");
+  Camera camera;
+  camera.width = number(find(root, {"image_width", "width"}), place);
+  camera.height = number(find(root, {"image_height", "height"}), place);
+  camera.fx = K[0];
+  camera.fy = K[4];
+  camera.cx = K[2];
+  camera.cy = K[5];
+  const YamlNode* distortion = find(
+      root, {"distortion_coefficients", "dist_coeffs", "distCoeffs", "distortionCoefficients", "D", "D1"});
+  if (distortion) set_distortion(camera, numbers(*distortion, place), place);
+  return camera;
+}
+
+Camera kalibr_camera(const YamlNode& root, const std::string& name, const YamlPlace& place) {
+  const YamlNode& node =
+      given(root, {name.empty() ? std::string_view("cam0") : std::string_view(name)}, place);
+  const YamlNode* model = find(node, {"camera_model"});
+  const YamlNode* lens = find(node, {"distortion_model"});
+  if (model && model->text != "pinhole")
+    throw Error(place.file, "has the camera model " + model->text,
+                "calibrate with pinhole, or leave the camera out");
+  if (lens && lens->text != "radtan" && lens->text != "none")
+    throw Error(place.file, "has the distortion model " + lens->text,
+                "calibrate with radtan, or leave the camera out");
+  const auto f = numbers(given(node, {"intrinsics"}, place), place);
+  if (f.size() != 4) throw Error(place.file, "has intrinsics that are not fu fv pu pv", "give 4 numbers");
+  Camera camera{0, 0, f[0], f[1], f[2], f[3], {}};
+  if (const YamlNode* terms = find(node, {"distortion_coeffs"}))
+    set_distortion(camera, numbers(*terms, place), place);
+  if (const YamlNode* size = find(node, {"resolution"})) {
+    const auto sides = numbers(*size, place);
+    if (sides.size() == 2)
+      camera.width = static_cast<int>(sides[0]), camera.height = static_cast<int>(sides[1]);
+  }
+  return camera;
+}
+
+Camera rig_camera(const std::string& path, const std::string& name) {
+  const Rig rig = read_rig(path);
+  for (const Sensor& sensor : rig.sensors)
+    if (name.empty() || sensor.name == name) return sensor.camera;
+  throw Error(path, "has no sensor " + name, "give one of its names behind the #");
+}
+
+Camera checked(Camera camera, const std::string& path) {
+  if (!(camera.fx > 0 && camera.fy > 0))
+    throw Error(path, "has a focal length that is not positive", "give px");
+  const bool has_size = camera.width > 0 && camera.height > 0;
+  if (has_size && !invertible_over_image(camera))
+    throw Error(path, "has a distortion that folds over inside the image",
+                "calibrate with a leaner lens model");
+  return camera;
+}
+
+}  // namespace
+
+Camera read_camera_file(const std::string& path_and_name) {
+  const auto hash = path_and_name.rfind('#');
+  const std::string path = path_and_name.substr(0, hash);
+  const std::string name = hash == std::string::npos ? "" : path_and_name.substr(hash + 1);
+  const YamlPlace place{path, ""};
+  const std::string text = read_file(path, kMaxBytes);
+  if (text.find("<opencv_storage>") != std::string::npos)
+    throw Error(path, "is OpenCV's XML", "save it as .yaml with cv::FileStorage");
+  const YamlNode root = detail::parse_yaml(plain_yaml(text), place);
+  if (find(root, {"format"}) && find(root, {"sensors"})) return rig_camera(path, name);
+  if (find(root, {"camera_matrix", "cameraMatrix", "K", "M1"}))
+    return checked(matrix_camera(root, place), path);
+  if (find(root, {"cam0"}) || (!name.empty() && find(root, {name})))
+    return checked(kalibr_camera(root, name, place), path);
+  throw Error(path, "is no camera file that lightstripe knows",
+              "give OpenCV's FileStorage (YAML), ROS' camera_info, Kalibr's camchain or a rig.yaml");
+}
+
+}  // namespace lightstripe

@@ -1,0 +1,136 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+// Cameras of other tools, in texts as those tools write them.
+#include "io/camera_file.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <opencv2/core/persistence.hpp>
+
+#include "core/error.h"
+#include "io/atomic_file.h"
+#include "temp_folder.h"
+
+namespace lightstripe {
+namespace {
+
+using ::testing::HasSubstr;
+
+const Camera kCamera{960, 700, 1640.25, 1641.5, 481.125, 349.75, {-0.1, 0.12, 4e-4, -3e-4, -0.05}};
+
+class CameraFile : public ::testing::Test {
+ protected:
+  std::string written(const std::string& name, const std::string& text) {
+    write_file(folder_ / name, text);
+    return (folder_ / name).string();
+  }
+  std::string message_of(const std::string& path) {
+    try {
+      read_camera_file(path);
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "no error";
+  }
+  TempFolder folder_;
+};
+
+void expect_same(const Camera& a, const Camera& b) {
+  EXPECT_EQ(a.width, b.width);
+  EXPECT_EQ(a.height, b.height);
+  EXPECT_EQ(a.fx, b.fx);
+  EXPECT_EQ(a.fy, b.fy);
+  EXPECT_EQ(a.cx, b.cx);
+  EXPECT_EQ(a.cy, b.cy);
+  EXPECT_EQ(a.distortion, b.distortion);
+}
+
+TEST_F(CameraFile, OpenCvReadsWhatWasWrittenForIt) {
+  auto tilted = kCamera;
+  tilted.distortion = {-0.1, 0.12, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0.14, -0.01};
+  for (const auto& camera : {kCamera, tilted}) {
+    const auto path = written("cv.yaml", opencv_camera_yaml(camera));
+    cv::FileStorage file(path, cv::FileStorage::READ);
+    cv::Mat K, D;
+    file["camera_matrix"] >> K;
+    file["distortion_coefficients"] >> D;
+    EXPECT_EQ(static_cast<int>(file["image_width"]), 960);
+    ASSERT_EQ(K.size(), cv::Size(3, 3));
+    EXPECT_EQ(K.at<double>(0, 0), camera.fx);
+    EXPECT_EQ(K.at<double>(1, 2), camera.cy);
+    for (int i = 0; i < D.cols; ++i) EXPECT_EQ(D.at<double>(i), camera.distortion[static_cast<std::size_t>(i)]);
+    EXPECT_EQ(D.cols, camera.tilted() ? 14 : 5);
+    expect_same(read_camera_file(path), camera);
+  }
+}
+
+TEST_F(CameraFile, WhatOpenCvWritesIsRead) {
+  const auto path = (folder_ / "by_opencv.yml").string();
+  {
+    cv::FileStorage file(path, cv::FileStorage::WRITE);
+    file << "image_width" << 960 << "image_height" << 700;
+    file << "camera_matrix"
+         << (cv::Mat_<double>(3, 3) << kCamera.fx, 0, kCamera.cx, 0, kCamera.fy, kCamera.cy, 0, 0, 1);
+    file << "distortion_coefficients" << (cv::Mat_<double>(5, 1) << -0.1, 0.12, 4e-4, -3e-4, -0.05);
+  }
+  expect_same(read_camera_file(path), kCamera);
+}
+
+TEST_F(CameraFile, CameraInfoGoesBothWays) {
+  const std::string text = ros_camera_info_yaml(kCamera, "gauge");
+  EXPECT_THAT(text, HasSubstr("distortion_model: plumb_bob"));
+  EXPECT_THAT(text, HasSubstr("projection_matrix"));
+  expect_same(read_camera_file(written("ros.yaml", text)), kCamera);
+  auto rational = kCamera;
+  rational.distortion[7] = 0.25;
+  EXPECT_THAT(ros_camera_info_yaml(rational, "gauge"), HasSubstr("rational_polynomial"));
+  expect_same(read_camera_file(written("ros8.yaml", ros_camera_info_yaml(rational, "gauge"))), rational);
+}
+
+TEST_F(CameraFile, CamchainsAreReadByCamera) {
+  const auto path = written("chain.yaml",
+                            "cam0:\n  camera_model: pinhole\n  intrinsics: [461.5, 460.25, 362.5, 246.0]\n"
+                            "  distortion_model: radtan\n  distortion_coeffs: [-0.25, 0.06, 0.0008, 0.0001]\n"
+                            "  rostopic: /cam0/image_raw\n  resolution: [752, 480]\n"
+                            "cam1:\n  camera_model: pinhole\n  intrinsics: [400, 401, 300, 200]\n"
+                            "  distortion_model: equidistant\n  distortion_coeffs: [0, 0, 0, 0]\n");
+  const Camera camera = read_camera_file(path);
+  EXPECT_EQ(camera.fx, 461.5);
+  EXPECT_EQ(camera.cy, 246.0);
+  EXPECT_EQ(camera.width, 752);
+  EXPECT_EQ(camera.distortion[2], 0.0008);
+  EXPECT_THAT(message_of(path + "#cam1"), HasSubstr("equidistant"));
+  EXPECT_THAT(message_of(path + "#cam7"), HasSubstr("has no cam7"));
+}
+
+TEST_F(CameraFile, CameramodelsHoldTheIntrinsicsAndThePoseInMetres) {
+  const Rigid3 pose{Eigen::Quaterniond(Eigen::AngleAxisd(0.5, Eigen::Vector3d::UnitY())), {100, 0, -50}};
+  const std::string text = mrcal_cameramodel(kCamera, pose);
+  EXPECT_THAT(text, HasSubstr("'lensmodel':  'LENSMODEL_OPENCV5'"));
+  EXPECT_THAT(text, HasSubstr("1640.25, 1641.5, 481.125, 349.75, -0.1, 0.12, 0.0004, -0.0003, -0.05"));
+  EXPECT_THAT(text, HasSubstr("'imagersize': [ 960, 700 ]"));
+  EXPECT_THAT(text, HasSubstr("0.1, 0, -0.05 ]"));
+}
+
+TEST_F(CameraFile, WhatAFormatCannotHoldIsRefused) {
+  auto tilted = kCamera;
+  tilted.distortion[12] = 0.1;
+  EXPECT_THROW(ros_camera_info_yaml(tilted, "a"), Error);
+  EXPECT_THROW(mrcal_cameramodel(tilted, {}), Error);
+}
+
+TEST_F(CameraFile, BrokenFilesAreNamed) {
+  EXPECT_THAT(message_of((folder_ / "none.yaml").string()), HasSubstr("none.yaml"));
+  EXPECT_THAT(message_of(written("a.yaml", "camera_matrix: {rows: 3, cols: 3, data: [1, 2]}\n")), HasSubstr("3 x 3"));
+  EXPECT_THAT(message_of(written("b.yaml", "camera_matrix: {rows: 3, cols: 3, data: [0,0,0,0,0,0,0,0,1]}\n")),
+              HasSubstr("focal length"));
+  EXPECT_THAT(message_of(written("c.yaml", "hello: world\n")), HasSubstr("no camera file that lightstripe knows"));
+  EXPECT_THAT(message_of(written("d.xml", "<?xml version=\"1.0\"?>\n<opencv_storage>\n")), HasSubstr("XML"));
+  EXPECT_THAT(message_of(written("e.yaml",
+                                 "distortion_model: equidistant\ncamera_matrix: [1,0,0,0,1,0,0,0,1]\n")),
+              HasSubstr("equidistant"));
+}
+
+}  // namespace
+}  // namespace lightstripe
