@@ -102,7 +102,8 @@ function showResiduals(sensor, index) {
   new Chart(element('canvas', undefined, card), {
     type: 'scatter',
     data: { datasets: [
-      { label: 'corners', data: arrows(corners, scale), showLine: true, spanGaps: false, pointRadius: 0, borderWidth: 1, borderColor: colors[index % 6] },
+      { label: 'corners', data: arrows(corners, scale), showLine: true, spanGaps: false, pointRadius: 0, borderWidth: 1, borderColor: colors[index % 6],
+        borderDash: [1e6, 0] },  // solid; without it Chart.js thins lines out,
       { label: 'stripe', data: stripe.map(r => ({ x: r[3], y: r[4] })), pointRadius: 1, pointBackgroundColor: '#dc262688', pointBorderWidth: 0 },
       { label: 'left out', data: out.map(r => ({ x: r[3], y: r[4] })), pointStyle: 'crossRot', pointRadius: 4, pointBorderColor: '#111' }] },
     options: { animation: false, parsing: false, aspectRatio: sensor.size[0] / sensor.size[1],

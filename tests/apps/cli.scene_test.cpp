@@ -172,7 +172,7 @@ TEST_F(Cli, GivenCameraIsKept) {
   std::string text = text_of(data() / "calibration.yaml");
   const auto at = text.find("name: solo");
   ASSERT_NE(at, std::string::npos) << text;
-  text.replace(at, 10, "name: solo\n    camera: \"truth/rig.yaml#solo\"");
+  text.replace(at, 10, "name: solo, camera: \"truth/rig.yaml#solo\"");
   write_text(data() / "given.yaml", text);
   const auto result = run_lightstripe("calibrate " + quoted(data() / "given.yaml") + " -o " + quoted(out_ / "rig.yaml"));
   ASSERT_EQ(result.exit_code, 0) << result.err;
