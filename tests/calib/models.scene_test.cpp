@@ -21,6 +21,7 @@ using testing::state_of;
 CalibrationOptions with_lens(LensModel lens) {
   CalibrationOptions options;
   options.lens = lens;
+  options.board_warp = true;
   return options;
 }
 
