@@ -30,21 +30,23 @@ std::vector<RgbPicture> draw_overlays(const Scan& scan, const fs::path& folder) 
     const Image8 image = read_image(files[files.size() / 2], scan.channel);
     ExtractionOptions options;
     read_subtree(scan.extraction, options);
-    overlays.push_back({draw_overlay(image, extract_stripes(image, options).stripes), image.width, image.height});
+    overlays.push_back(
+        {draw_overlay(image, extract_stripes(image, options).stripes), image.width, image.height});
     write_rgb_image(folder / (sensor + ".png"), overlays.back().pixels, image.width, image.height);
   }
   return overlays;
 }
 
 /// The overlays above the cloud, in one picture.
-void write_overview(const std::vector<RgbPicture>& overlays, const std::vector<Profile>& profiles, const fs::path& file) {
+void write_overview(const std::vector<RgbPicture>& overlays, const std::vector<Profile>& profiles,
+                    const fs::path& file) {
   CloudPreview cloud;
   for (const auto& profile : profiles) cloud.add(profile);
   const RgbPicture overview = compose_overview(overlays, cloud.draw(1200, 520));
   write_rgb_image(file, overview.pixels, overview.width, overview.height);
 }
 
-std::string accuracy_table(const RigError& rig, const CloudError& cloud) {
+std::string accuracy_table(const RigError& rig, const CloudError& cloud, bool wheel) {
   std::string table;
   const auto row = [&](const std::string& what, const std::string& value) {
     table += fmt::format("| {:<58} | {:>12} |\n", what, value);
@@ -52,11 +54,14 @@ std::string accuracy_table(const RigError& rig, const CloudError& cloud) {
   row("result against the known truth", "error");
   table += fmt::format("|{:-<60}|{:->13}:|\n", "", "");
   for (const auto& sensor : rig.sensors) {
-    row(fmt::format("laser plane of {}, direction", sensor.name), fmt::format("{:.3f} deg", sensor.plane_angle_deg));
-    row(fmt::format("laser plane of {}, place", sensor.name), fmt::format("{:.3f} mm", sensor.plane_offset_mm));
+    row(fmt::format("laser plane of {}, direction", sensor.name),
+        fmt::format("{:.3f} deg", sensor.plane_angle_deg));
+    row(fmt::format("laser plane of {}, place", sensor.name),
+        fmt::format("{:.3f} mm", sensor.plane_offset_mm));
   }
   if (rig.sensors.size() > 1) row("sensor to sensor", fmt::format("{:.3f} mm", rig.baseline_mm));
-  row("direction of travel", fmt::format("{:.3f} deg", rig.travel_deg));
+  row(wheel ? "axis, direction" : "direction of travel", fmt::format("{:.3f} deg", rig.travel_deg));
+  if (wheel) row("axis, place", fmt::format("{:.3f} mm", rig.axis_mm));
   row("sections, shape after one rigid move each, rms", fmt::format("{:.4f} mm", cloud.shape_rms_mm));
   row("sections, place as well, rms", fmt::format("{:.3f} mm", cloud.absolute_rms_mm));
   row("points more than 1 mm off", fmt::format("{:.3f} %", 100 * cloud.far_fraction));
@@ -65,18 +70,20 @@ std::string accuracy_table(const RigError& rig, const CloudError& cloud) {
   return table;
 }
 
-int run_demo(const CommonOptions& common) {
+int run_demo(const CommonOptions& common, bool wheel) {
   const fs::path folder = common.output.empty() ? "demo-output" : common.output;
   CommonOptions stage = common;
 
-  say(common, "1/3 rendering a calibration session and a scan of a rail");
+  say(common, std::string("1/3 rendering a calibration session and a scan of a ") +
+                  (wheel ? "turning wheel" : "rail"));
   stage.output = folder.string();
-  const SimulationSummary simulated = simulate_with_progress(Scene{}, stage);
+  const SimulationSummary simulated = simulate_with_progress(wheel ? wheel_scene() : Scene{}, stage);
 
   say(common, "2/3 calibrating the rig from the board images");
   stage.output = (folder / "rig.yaml").string();
   stage.quiet = true;
-  if (const int code = calibrate_session(simulated.session.string(), {}, {}, stage); code != kExitDone) return code;
+  if (const int code = calibrate_session(simulated.session.string(), {}, {}, stage); code != kExitDone)
+    return code;
 
   say(common, "3/3 reconstructing the scan\n");
   ReconstructArguments arguments;
@@ -88,15 +95,18 @@ int run_demo(const CommonOptions& common) {
   const ReconstructOutcome outcome = reconstruct_scan(arguments);
   if (outcome.summary.points == 0) return not_usable("the scan gave no points");
   const std::vector<Profile> profiles = read_profiles(folder / "profiles.csv");
-  write_overview(draw_overlays(read_scan(simulated.scan), folder / "overlay"), profiles, folder / "overview.png");
+  write_overview(draw_overlays(read_scan(simulated.scan), folder / "overlay"), profiles,
+                 folder / "overview.png");
 
   const Rig rig = read_rig(folder / "rig.yaml");
   const RigError rig_error = compare_rigs(rig, read_rig(simulated.truth / "rig.yaml"));
   const CloudError cloud_error = compare_cloud(profiles, rig, simulated.truth);
-  say(common, accuracy_table(rig_error, cloud_error));
-  say(common, fmt::format("\n{} points from {} frames of {} sensors, {:.0f} frames/s with {} threads (PNG decoding included)",
-                          outcome.summary.points, outcome.summary.frames, rig.sensors.size(),
-                          static_cast<double>(outcome.summary.frames) / outcome.seconds, thread_count(common)));
+  say(common, accuracy_table(rig_error, cloud_error, wheel));
+  say(common,
+      fmt::format(
+          "\n{} points from {} frames of {} sensors, {:.0f} frames/s with {} threads (PNG decoding included)",
+          outcome.summary.points, outcome.summary.frames, rig.sensors.size(),
+          static_cast<double>(outcome.summary.frames) / outcome.seconds, thread_count(common)));
   say(common, fmt::format("\ncloud      {0}/cloud.ply (picture: {0}/cloud.png)\nsections   {0}/profiles.csv\n"
                           "overlays   {0}/overlay/*.png\nrig        {0}/rig.yaml\ntruth      {0}/truth/",
                           folder.string()));
@@ -106,10 +116,13 @@ int run_demo(const CommonOptions& common) {
 }  // namespace
 
 void add_demo_command(CLI::App& app, Command& run) {
-  auto* command = app.add_subcommand("demo", "the whole chain on a built-in synthetic rig, results beside the truth");
+  auto* command =
+      app.add_subcommand("demo", "the whole chain on a built-in synthetic rig, results beside the truth");
   auto common = std::make_shared<CommonOptions>();
   add_common_options(*command, *common, "folder to write to (default: demo-output)");
-  command->callback([common, &run] { run = [common] { return run_demo(*common); }; });
+  auto wheel = std::make_shared<bool>(false);
+  command->add_flag("--wheel", *wheel, "a worn wheel on a turning stand instead of the rail");
+  command->callback([common, wheel, &run] { run = [common, wheel] { return run_demo(*common, *wheel); }; });
 }
 
 }  // namespace lightstripe
