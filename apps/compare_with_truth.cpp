@@ -14,6 +14,7 @@
 #include "core/polyline_search.h"
 #include "core/section_alignment.h"
 #include "io/csv_reader.h"
+#include "io/rig_file.h"
 
 namespace lightstripe {
 namespace {
@@ -23,7 +24,7 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr double kDegrees = 180 / std::numbers::pi;
-constexpr double kFarMm = 1.0;      // a point farther off than this is wrong, not inaccurate
+constexpr double kFarMm = 1.0;  // a point farther off than this is wrong, not inaccurate
 constexpr double kSearchMm = 5.0;
 
 double angle_deg(const Vector3d& a, const Vector3d& b) {
@@ -34,7 +35,8 @@ SensorError compare_sensors(const Sensor& sensor, const Sensor& truth) {
   const Plane& plane = sensor.laser_planes.at(0);
   const Plane& true_plane = truth.laser_planes.at(0);
   // Where the optical axis meets the true plane: the middle of what the sensor measures.
-  const Vector3d middle = intersect(true_plane, Vector3d::Zero(), Vector3d::UnitZ()).value_or(true_plane.normal * true_plane.offset);
+  const Vector3d middle = intersect(true_plane, Vector3d::Zero(), Vector3d::UnitZ())
+                              .value_or(true_plane.normal * true_plane.offset);
   SensorError error;
   error.name = sensor.name;
   error.plane_angle_deg = angle_deg(plane.normal, true_plane.normal);
@@ -76,21 +78,24 @@ class PlaceIndex {
   std::map<std::array<long, 3>, std::vector<Vector3d>> cells_;
 };
 
-/// The part of the true stripe points (blobs' places apart) with a measured point of their sensor and frame near by.
+/// The part of the true stripe points (blobs' places apart) with a measured point of their sensor and frame
+/// near by.
 double recovered(const std::vector<Profile>& profiles, const Rig& rig, const fs::path& stripes) {
   std::map<std::pair<std::int64_t, int>, PlaceIndex> measured;
   for (const auto& profile : profiles)
     for (const auto& point : profile.points)
       measured.try_emplace({profile.frame, point.sensor}, 1.5 * kFarMm).first->second.insert(point.position);
   std::map<std::string, int> sensor_index;
-  for (const auto& sensor : rig.sensors) sensor_index.emplace(sensor.name, static_cast<int>(sensor_index.size()));
+  for (const auto& sensor : rig.sensors)
+    sensor_index.emplace(sensor.name, static_cast<int>(sensor_index.size()));
   long visible = 0, found = 0;
   CsvReader rows(stripes, {"frame", "sensor", "X", "Y", "Z", "blob"});
   while (rows.next()) {
     if (rows.integer(0) < 0 || rows.integer(5) != 0) continue;  // frame -1: a calibration image
     const auto index = measured.find({rows.integer(0), sensor_index.at(rows.text(1))});
     ++visible;
-    if (index != measured.end() && index->second.near({rows.number(2), rows.number(3), rows.number(4)})) ++found;
+    if (index != measured.end() && index->second.near({rows.number(2), rows.number(3), rows.number(4)}))
+      ++found;
   }
   return visible > 0 ? static_cast<double>(found) / static_cast<double>(visible) : 0.0;
 }
@@ -105,6 +110,24 @@ struct SquareSum {
   double rms() const { return count > 0 ? std::sqrt(sum / static_cast<double>(count)) : 0.0; }
 };
 
+/// The direction of travel or of the axis, rig frame.
+Vector3d motion_direction(const Motion& motion) {
+  return motion.type == MotionType::kRotary ? motion.axis_direction : Vector3d::UnitX();
+}
+
+/// The true axis passes nearest to the rig in its own axis_point: how far is the found one from there?
+double axis_distance(const Rig& rig, const Rig& truth) {
+  const Rigid3 from_truth = rig.sensors[0].rig_from_camera * truth.sensors[0].rig_from_camera.inverse();
+  const Vector3d offset = from_truth * truth.motion.axis_point - rig.motion.axis_point;
+  return (offset - offset.dot(rig.motion.axis_direction) * rig.motion.axis_direction).norm();
+}
+
+/// u counts from the axis' point in the rig file, which may be any: how much more it is in the truth's.
+double shift_of_u(const Rig& rig, const Rig& truth) {
+  if (rig.motion.type != MotionType::kRotary || truth.motion.type != MotionType::kRotary) return 0;
+  return truth.motion.axis_direction.dot(rig.motion.axis_point - truth.motion.axis_point);
+}
+
 }  // namespace
 
 RigError compare_rigs(const Rig& rig, const Rig& truth) {
@@ -116,14 +139,18 @@ RigError compare_rigs(const Rig& rig, const Rig& truth) {
     const Rigid3 seen = first.inverse() * rig.sensors[i].rig_from_camera;
     const Rigid3 true_seen = true_first.inverse() * truth.sensors[i].rig_from_camera;
     error.baseline_mm = std::max(error.baseline_mm, (seen.translation - true_seen.translation).norm());
-    error.baseline_deg = std::max(error.baseline_deg, rotation_angle(seen.rotation.conjugate() * true_seen.rotation) * kDegrees);
+    error.baseline_deg = std::max(error.baseline_deg,
+                                  rotation_angle(seen.rotation.conjugate() * true_seen.rotation) * kDegrees);
   }
-  error.travel_deg = angle_deg(first.rotation.conjugate() * Vector3d::UnitX(), true_first.rotation.conjugate() * Vector3d::UnitX());
+  error.travel_deg = angle_deg(first.rotation.conjugate() * motion_direction(rig.motion),
+                               true_first.rotation.conjugate() * motion_direction(truth.motion));
+  if (truth.motion.type == MotionType::kRotary) error.axis_mm = axis_distance(rig, truth);
   return error;
 }
 
 CloudError compare_cloud(const std::vector<Profile>& profiles, const Rig& rig, const fs::path& truth) {
   const Polylines sections = read_sections(truth / "sections.csv");
+  const double shift = shift_of_u(rig, read_rig(truth / "rig.yaml"));
   CloudError error;
   SquareSum shape, absolute;
   double far = 0;
@@ -131,8 +158,9 @@ CloudError compare_cloud(const std::vector<Profile>& profiles, const Rig& rig, c
     const auto section = sections.find(profile.frame);
     if (section == sections.end() || profile.points.size() < 3) continue;
     std::vector<Vector2d> measured;
-    for (const auto& point : profile.points) measured.push_back({point.u, point.v});
-    const SectionAlignment alignment = align_section(measured, section->second, {.search_mm = kSearchMm, .far_mm = kFarMm});
+    for (const auto& point : profile.points) measured.push_back({point.u + shift, point.v});
+    const SectionAlignment alignment =
+        align_section(measured, section->second, {.search_mm = kSearchMm, .far_mm = kFarMm});
     shape.add(alignment.rms_mm, alignment.num_points);
     far += alignment.far_fraction * static_cast<double>(measured.size());
     error.points += static_cast<long>(measured.size());

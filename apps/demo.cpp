@@ -32,21 +32,24 @@ std::vector<RgbPicture> draw_overlays(const Scan& scan, const fs::path& folder) 
     const Image8 image = read_image(files[files.size() / 2], scan.channel);
     ExtractionOptions options;
     read_subtree(scan.extraction, options);
-    overlays.push_back({draw_overlay(image, extract_stripes(image, options).stripes), image.width, image.height});
+    overlays.push_back(
+        {draw_overlay(image, extract_stripes(image, options).stripes), image.width, image.height});
     write_rgb_image(folder / (sensor + ".png"), overlays.back().pixels, image.width, image.height);
   }
   return overlays;
 }
 
 /// The overlays above the cloud, in one picture.
-void write_overview(const std::vector<RgbPicture>& overlays, const std::vector<Profile>& profiles, const fs::path& file) {
+void write_overview(const std::vector<RgbPicture>& overlays, const std::vector<Profile>& profiles,
+                    const fs::path& file) {
   CloudPreview cloud;
   for (const auto& profile : profiles) cloud.add(profile);
   const RgbPicture overview = compose_overview(overlays, cloud.draw(1200, 520));
   write_rgb_image(file, overview.pixels, overview.width, overview.height);
 }
 
-std::string accuracy_table(const RigError& rig, const CloudError& cloud, const std::optional<WearError>& wear) {
+std::string accuracy_table(const RigError& rig, const CloudError& cloud, const std::optional<WearError>& wear,
+                           bool wheel) {
   std::string table;
   const auto row = [&](const std::string& what, const std::string& value) {
     table += fmt::format("| {:<58} | {:>12} |\n", what, value);
@@ -54,26 +57,32 @@ std::string accuracy_table(const RigError& rig, const CloudError& cloud, const s
   row("result against the known truth", "error");
   table += fmt::format("|{:-<60}|{:->13}:|\n", "", "");
   for (const auto& sensor : rig.sensors) {
-    row(fmt::format("laser plane of {}, direction", sensor.name), fmt::format("{:.3f} deg", sensor.plane_angle_deg));
-    row(fmt::format("laser plane of {}, place", sensor.name), fmt::format("{:.3f} mm", sensor.plane_offset_mm));
+    row(fmt::format("laser plane of {}, direction", sensor.name),
+        fmt::format("{:.3f} deg", sensor.plane_angle_deg));
+    row(fmt::format("laser plane of {}, place", sensor.name),
+        fmt::format("{:.3f} mm", sensor.plane_offset_mm));
   }
   if (rig.sensors.size() > 1) row("sensor to sensor", fmt::format("{:.3f} mm", rig.baseline_mm));
-  row("direction of travel", fmt::format("{:.3f} deg", rig.travel_deg));
+  row(wheel ? "axis, direction" : "direction of travel", fmt::format("{:.3f} deg", rig.travel_deg));
+  if (wheel) row("axis, place", fmt::format("{:.3f} mm", rig.axis_mm));
   row("sections, shape after one rigid move each, rms", fmt::format("{:.4f} mm", cloud.shape_rms_mm));
   row("sections, place as well, rms", fmt::format("{:.3f} mm", cloud.absolute_rms_mm));
   row("points more than 1 mm off", fmt::format("{:.3f} %", 100 * cloud.far_fraction));
   row("visible lit stripe recovered", fmt::format("{:.1f} %", 100 * cloud.recovered_fraction));
   if (wear && wear->vertical_frames > 0)
-    row(fmt::format("vertical wear of {} sections, rms", wear->vertical_frames), fmt::format("{:.4f} mm", wear->vertical_rms_mm));
+    row(fmt::format("vertical wear of {} sections, rms", wear->vertical_frames),
+        fmt::format("{:.4f} mm", wear->vertical_rms_mm));
   if (wear && wear->side_frames > 0)
-    row(fmt::format("side wear of {} sections, rms", wear->side_frames), fmt::format("{:.4f} mm", wear->side_rms_mm));
+    row(fmt::format("side wear of {} sections, rms", wear->side_frames),
+        fmt::format("{:.4f} mm", wear->side_rms_mm));
   table.pop_back();
   return table;
 }
 
 /// Nothing where the scene is no rail, or none of its sections could be measured.
-std::optional<WearError> measure_wear(const fs::path& folder, const fs::path& truth, const CommonOptions& quiet) {
-  if (!fs::exists(truth / "wear.csv")) return std::nullopt;
+std::optional<WearError> measure_wear(const Scene& scene, const fs::path& folder, const fs::path& truth,
+                                      const CommonOptions& quiet) {
+  if (scene.turns() || !fs::exists(truth / "wear.csv")) return std::nullopt;
   MeasureArguments arguments;
   arguments.common = quiet;
   arguments.common.output = (folder / "measurements.csv").string();
@@ -84,18 +93,21 @@ std::optional<WearError> measure_wear(const fs::path& folder, const fs::path& tr
   return compare_wear(outcome.rows, truth);
 }
 
-int run_demo(const std::string& scene_file, const CommonOptions& common) {
+int run_demo(const std::string& scene_file, bool wheel, const CommonOptions& common) {
   const fs::path folder = common.output.empty() ? "demo-output" : common.output;
   CommonOptions stage = common;
 
-  say(common, "1/4 rendering a calibration session and a scan of a rail");
+  const Scene scene = !scene_file.empty() ? read_scene(scene_file) : wheel ? wheel_scene() : Scene{};
+  say(common, fmt::format("1/4 rendering a calibration session and a scan of a {}",
+                          scene.turns() ? "turning wheel" : "rail"));
   stage.output = folder.string();
-  const SimulationSummary simulated = simulate_with_progress(scene_file.empty() ? Scene{} : read_scene(scene_file), stage);
+  const SimulationSummary simulated = simulate_with_progress(scene, stage);
 
   say(common, "2/4 calibrating the rig from the board images");
   stage.output = (folder / "rig.yaml").string();
   stage.quiet = true;
-  if (const int code = calibrate_session(simulated.session.string(), {}, {}, stage); code != kExitDone) return code;
+  if (const int code = calibrate_session(simulated.session.string(), {}, {}, stage); code != kExitDone)
+    return code;
 
   say(common, "3/4 reconstructing the scan");
   ReconstructArguments arguments;
@@ -107,33 +119,42 @@ int run_demo(const std::string& scene_file, const CommonOptions& common) {
   const ReconstructOutcome outcome = reconstruct_scan(arguments);
   if (outcome.summary.points == 0) return not_usable("the scan gave no points");
   const std::vector<Profile> profiles = read_profiles(folder / "profiles.csv");
-  write_overview(draw_overlays(read_scan(simulated.scan), folder / "overlay"), profiles, folder / "overview.png");
+  write_overview(draw_overlays(read_scan(simulated.scan), folder / "overlay"), profiles,
+                 folder / "overview.png");
 
   say(common, "4/4 measuring the sections\n");
-  const std::optional<WearError> wear = measure_wear(folder, simulated.truth, stage);
+  const std::optional<WearError> wear = measure_wear(scene, folder, simulated.truth, stage);
 
   const Rig rig = read_rig(folder / "rig.yaml");
   const RigError rig_error = compare_rigs(rig, read_rig(simulated.truth / "rig.yaml"));
   const CloudError cloud_error = compare_cloud(profiles, rig, simulated.truth);
-  say(common, accuracy_table(rig_error, cloud_error, wear));
-  say(common, fmt::format("\n{} points from {} frames of {} sensors, {:.0f} frames/s with {} threads (PNG decoding included)",
-                          outcome.summary.points, outcome.summary.frames, rig.sensors.size(),
-                          static_cast<double>(outcome.summary.frames) / outcome.seconds, thread_count(common)));
+  say(common, accuracy_table(rig_error, cloud_error, wear, scene.turns()));
+  say(common,
+      fmt::format(
+          "\n{} points from {} frames of {} sensors, {:.0f} frames/s with {} threads (PNG decoding included)",
+          outcome.summary.points, outcome.summary.frames, rig.sensors.size(),
+          static_cast<double>(outcome.summary.frames) / outcome.seconds, thread_count(common)));
   say(common, fmt::format("\ncloud      {0}/cloud.ply (picture: {0}/cloud.png)\nsections   {0}/profiles.csv\n"
-                          "measured   {0}/measurements.csv\noverlays   {0}/overlay/*.png\nrig        {0}/rig.yaml\ntruth      {0}/truth/",
-                          folder.string()));
+                          "{1}overlays   {0}/overlay/*.png\nrig        {0}/rig.yaml\ntruth      {0}/truth/",
+                          folder.string(),
+                          wear ? "measured   " + (folder / "measurements.csv").string() + "\n" : ""));
   return kExitDone;
 }
 
 }  // namespace
 
 void add_demo_command(CLI::App& app, Command& run) {
-  auto* command = app.add_subcommand("demo", "the whole chain on a built-in synthetic rig, results beside the truth");
+  auto* command =
+      app.add_subcommand("demo", "the whole chain on a built-in synthetic rig, results beside the truth");
   auto common = std::make_shared<CommonOptions>();
   auto scene = std::make_shared<std::string>();
   command->add_option("scene", *scene, "another scene (YAML) than the built-in one; see configs/scenes");
   add_common_options(*command, *common, "folder to write to (default: demo-output)");
-  command->callback([scene, common, &run] { run = [scene, common] { return run_demo(*scene, *common); }; });
+  auto wheel = std::make_shared<bool>(false);
+  command->add_flag("--wheel", *wheel, "a worn wheel on a turning stand instead of the rail");
+  command->callback([scene, wheel, common, &run] {
+    run = [scene, wheel, common] { return run_demo(*scene, *wheel, *common); };
+  });
 }
 
 }  // namespace lightstripe

@@ -148,6 +148,25 @@ std::vector<SceneSensor> two_sensor_rail_rig() {
   return {gauge, field};
 }
 
+Scene wheel_scene() {
+  Scene scene;
+  scene.seed = 11;
+  scene.motion.positions = 11;
+  scene.motion.step_deg = 1.8;
+  scene.motion.moves = Moves::kObject;
+  scene.scan.frames = 36;
+  scene.scan.step_deg = 10;
+  scene.rail.profile = "none";
+  scene.wheel.profile = "S1002";
+  scene.wheel.center = {0, 0, -530};
+  scene.wheel.axis = {0, -1, 0};
+  scene.wheel.flange_wear_mm = 2;
+  scene.wheel.tread_wear_mm = 1.5;
+  scene.wheel.eccentricity_mm = 0.15;
+  scene.wheel.material = {0.55, 0.1, 20};
+  return scene;
+}
+
 void Scene::check(const std::string& origin) const {
   const Rules rules{origin.empty() ? "" : origin + ": "};
   check_sensors(*this, rules);

@@ -155,6 +155,9 @@ void visit_fields(V&& v, Scene& o) {
   v("ground", o.ground);
 }
 
+/// The demo's rig before a worn wheel on a turning stand, one turn (configs/scenes/wheel.yaml).
+Scene wheel_scene();
+
 /// Reads scene.yaml; keys left out keep their defaults; an outline file (rail.profile) is relative to the
 /// scene's folder. Errors name file, key and rule.
 Scene read_scene(const std::filesystem::path& path);

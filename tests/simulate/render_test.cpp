@@ -30,7 +30,7 @@ TEST(Render, FlatGroundHasTheLevelOfTheModel) {
   Imaging imaging = noise_free();
   imaging.light = {0.6, 0, 0.8};
   const SimulatedSensor sensor = make_sensor(looking_down(64, 48));
-  const Image<float> image = rendered(white_ground(), {&sensor, Vector3d::Zero(), 100, 0}, imaging);
+  const Image<float> image = rendered(white_ground(), {&sensor, {}, 100, 0}, imaging);
   // 40 % of the lamp's light comes from everywhere, the rest falls in with cosine 0.8.
   for (const float level : image.pixels) EXPECT_NEAR(level, 5 + 100 * (0.4 + 0.6 * 0.8), 1e-3);
 }
@@ -100,7 +100,7 @@ std::vector<cv::Point2d> projected(const SimulatedSensor& sensor, const BoardSur
 Image<float> board_image(const SimulatedSensor& sensor, const BoardSurface& board) {
   World world;
   world.boards.push_back(board);
-  return rendered(world, {&sensor, Vector3d::Zero(), 215, 0}, noise_free());
+  return rendered(world, {&sensor, {}, 215, 0}, noise_free());
 }
 
 /// Where an edge crosses an image column near a row: the column's light from `reach` px above to `reach`

@@ -138,5 +138,22 @@ TEST(TrueRig, WithoutMotionXIsTheFirstLasersNormalAwayFromTheCamera) {
   EXPECT_NEAR((x_cam - rig.sensors[0].laser_planes[0].normal).norm(), 0, 1e-12);
 }
 
+TEST(Scene, TheBuiltInWheelIsThatOfTheExampleFile) {
+  EXPECT_EQ(dump_yaml(wheel_scene()),
+            dump_yaml(read_scene(LIGHTSTRIPE_SOURCE_DIR "/configs/scenes/wheel.yaml")));
+}
+
+TEST(Scene, AWheelStandsAloneAndItsAxisLiesLevel) {
+  Scene scene = wheel_scene();
+  scene.rail.profile = "60E1";
+  EXPECT_THROW(scene.check(), Error);
+  scene = wheel_scene();
+  scene.wheel.axis = {0, 0, 1};
+  EXPECT_THROW(scene.check(), Error);
+  scene = wheel_scene();
+  scene.scan.sway_deg = 1;
+  EXPECT_THROW(scene.check(), Error);
+}
+
 }  // namespace
 }  // namespace lightstripe
