@@ -55,7 +55,7 @@ TEST(Docs, CommandsRunAsTheyStand) {
 }
 
 TEST(Docs, ScriptsThatPagesNameAreThere) {
-  const std::regex script("`(scripts/[a-z_]+)");
+  const std::regex script("`(scripts/[a-z_.]+)");
   for (const auto& page : pages()) {
     const std::string text = text_of(page);
     for (std::sregex_iterator it(text.begin(), text.end(), script), end; it != end; ++it)

@@ -21,7 +21,7 @@ int main() {
   observations.sensors.push_back({"gauge", 960, 700, 1, {}});
   const CalibrationResult nothing = calibrate_rig(observations);
   const bool writes = !rig_to_yaml({}).empty() && read_nominal("60E1").closed();
-  const ScanSummary scan = scan_profiles({}, {}, ExtractionOptions{}, 1, [](const Profile&) {});
+  const ScanSummary scan = scan_profiles(ScanInput{}, Rig{}, ExtractionOptions{}, 1, FrameSink{});
   CloudWriter cloud("empty.ply");
   const bool ok = dark.stripes.empty() && !nothing.summary.usable && writes && scan.frames == 0 &&
                   cloud.finish() == 0 && Scene{}.sensors.size() == 2;

@@ -1,8 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The lightstripe authors
 // SPDX-License-Identifier: Apache-2.0
 // Makes valid files for the readers to start from, a folder a target. usage: make_seeds FOLDER
+#include <cmath>
 #include <filesystem>
 #include <opencv2/imgcodecs.hpp>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -10,6 +12,7 @@
 #include "io/atomic_file.h"
 #include "io/rig_file.h"
 #include "io/tables.h"
+#include "measure/profile_formats.h"
 #include "reconstruct/cloud.h"
 
 namespace lightstripe {
@@ -45,6 +48,16 @@ std::vector<Profile> small_profiles() {
   return profiles;
 }
 
+/// A rail head as a half ellipse, 72 mm wide.
+RecordedProfile small_recorded_profile() {
+  RecordedProfile profile;
+  for (int i = 0; i <= 40; ++i) {
+    const double angle = 3.14159 * i / 40;
+    profile.points.emplace_back(-36 * std::cos(angle), 30 * std::sin(angle) - 30);
+  }
+  return profile;
+}
+
 void write_pictures(const fs::path& folder) {
   cv::Mat grey(5, 9, CV_8UC1), colour(5, 9, CV_8UC3), deep(5, 9, CV_16UC1);
   for (int y = 0; y < grey.rows; ++y)
@@ -74,6 +87,11 @@ void write_seeds(const fs::path& folder) {
   std::string table(kProfilesHeader);
   for (const auto& profile : small_profiles()) append_profile(table, profile);
   write_file(folder / "profiles/profiles.csv", table);
+  std::ostringstream miniprof, simpack;
+  write_miniprof(miniprof, small_recorded_profile());
+  write_simpack(simpack, small_recorded_profile());
+  write_file(folder / "miniprof/rail.ban", miniprof.str());
+  write_file(folder / "simpack/rail.prr", simpack.str());
   for (const std::string format : {"ply", "pcd"}) {
     fs::create_directories(folder / ("cloud_" + format));
     CloudWriter cloud(folder / ("cloud_" + format) / ("cloud." + format));
