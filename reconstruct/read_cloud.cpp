@@ -1,9 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The lightstripe authors
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
-#include <pcl/conversions.h>
-#include <pcl/io/pcd_io.h>
-#include <pcl/io/ply_io.h>
 
 #include <charconv>
 #include <fstream>
@@ -13,7 +10,6 @@
 #include "core/error.h"
 #include "reconstruct/cloud.h"
 #include "reconstruct/cloud_header.h"
-#include "reconstruct/cloud_point_type.h"
 
 namespace lightstripe {
 namespace {
@@ -38,9 +34,8 @@ std::optional<std::int64_t> number_after(std::string_view header, std::string_vi
   return number;
 }
 
-/// PCL trusts the counts and types of a header; a wrong one must not reach it. So the header has to be, byte
-/// for byte, the one that CloudWriter gives to the number of points it names, and the file as long as that
-/// says. Returns that number.
+/// The header has to be, byte for byte, the one that CloudWriter gives to the number of points it names, and
+/// the file as long as that says. Returns that number.
 std::int64_t check_header(const std::filesystem::path& path, CloudFormat format) {
   const std::string header = first_bytes(path, cloud_header(format, 0).size());
   const auto num_points =
@@ -86,14 +81,16 @@ std::vector<CloudPoint> read_cloud(const std::filesystem::path& path) {
   const CloudFormat format = cloud_format(path, path.string());
   if (format == CloudFormat::kXyz)
     throw Error(path.string(), "an .xyz file has no intensity, frame and sigma", "give a .ply or .pcd file");
-  if (check_header(path, format) == 0) return {};  // PCL would complain on stderr
-  pcl::PCLPointCloud2 fields;
-  const int result = format == CloudFormat::kPly ? pcl::PLYReader().read(path.string(), fields)
-                                                 : pcl::PCDReader().read(path.string(), fields);
-  if (result < 0) throw Error(path.string(), "PCL cannot read it", "reconstruct the cloud again");
-  pcl::PointCloud<CloudPoint> cloud;
-  pcl::fromPCLPointCloud2(fields, cloud);
-  return {cloud.points.begin(), cloud.points.end()};
+  // The header is known byte for byte and the size fits, so the points lie in the file as they do in memory.
+  // (PCL's PCD reader goes on looking for header lines in the points themselves.)
+  const std::int64_t num_points = check_header(path, format);
+  std::vector<CloudPoint> points(static_cast<std::size_t>(num_points));
+  std::ifstream file(path, std::ios::binary);
+  file.seekg(static_cast<std::streamoff>(cloud_header(format, num_points).size()));
+  file.read(reinterpret_cast<char*>(points.data()),
+            static_cast<std::streamsize>(points.size() * sizeof(CloudPoint)));
+  if (!file) throw Error(path.string(), "cannot be read", "check the file and its disk");
+  return points;
 }
 
 }  // namespace lightstripe

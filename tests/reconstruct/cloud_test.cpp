@@ -262,6 +262,18 @@ TEST_F(CloudFile, HostilePcdHeadersAreRefusedToo) {
   }
 }
 
+// Found by fuzzing: a reader that looks for header lines in the points allocates what they say.
+TEST_F(CloudFile, PointsThatLookLikeHeaderLinesArePoints) {
+  for (const std::string name : {"a.ply", "a.pcd"}) {
+    write(path(name), profiles_with(1, 4));
+    std::string bytes = bytes_of(path(name));
+    const std::string line = "\nPOINTS 66666666666666666\n";
+    bytes.replace(bytes.size() - 4 * sizeof(CloudPoint), line.size(), line);
+    put(path(name), bytes);
+    EXPECT_EQ(read_cloud(path(name)).size(), 4u);
+  }
+}
+
 TEST_F(CloudFile, ReadCloudNamesWhatItCannotRead) {
   EXPECT_THROW(read_cloud(path("missing.ply")), Error);
   EXPECT_THROW(read_cloud(path("a.obj")), Error);
