@@ -118,21 +118,27 @@ bool clearly_larger(const std::vector<double>& a, const std::vector<double>& b, 
 
 using Tried = std::pair<LensModel, std::vector<double>>;  // a model and its errors by view
 
-/// Whether a tilted sensor is worth believing in: without need it only makes the camera's frame uncertain.
-bool far_larger(const std::vector<double>& a, const std::vector<double>& b) {
-  return mean(a) > 1.01 * mean(b) && clearly_larger(a, b, 3);
+/// Whether a richer model is worth its uncertainty: among many models one is better by chance, but hardly by this much.
+bool worth_it(const std::vector<double>& lean, const std::vector<double>& rich, double standard_errors) {
+  constexpr double kLeastGain = 0.002;
+  return mean(lean) > (1 + kLeastGain) * mean(rich) && clearly_larger(lean, rich, standard_errors);
 }
 
-/// The leanest that is no worse than the best; of two equally lean ones the first unless the other is far
-/// better.
+/// A tilted sensor without need only makes the camera's frame uncertain.
+bool tilt_worth_it(const std::vector<double>& upright, const std::vector<double>& tilted) {
+  return mean(upright) > 1.01 * mean(tilted) && worth_it(upright, tilted, 3);
+}
+
+/// The leanest that is not clearly worse than the best; of two equally lean ones the first unless the tilted one is worth
+/// it.
 LensModel leanest_of_the_good(const std::vector<Tried>& tried, const Tried& best) {
   for (auto first = tried.begin(); first != tried.end();) {
     const auto terms = free_terms(first->first).size();
     auto next = first;
     const Tried* chosen = &*first;
     for (; next != tried.end() && free_terms(next->first).size() == terms; ++next)
-      if (far_larger(chosen->second, next->second)) chosen = &*next;
-    if (!clearly_larger(chosen->second, best.second, 2)) return chosen->first;
+      if (tilt_worth_it(chosen->second, next->second)) chosen = &*next;
+    if (!worth_it(chosen->second, best.second, 3)) return chosen->first;
     first = next;
   }
   return best.first;

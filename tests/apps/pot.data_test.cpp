@@ -83,8 +83,9 @@ TEST_F(PotScan, IsAPotOnATableAndNotNoise) {
   EXPECT_LT(std::acos(std::min(1.0, std::abs(fit.normal.z()))) * 180 / M_PI, 0.2);
   // The frames' mean heights scatter by 0.28 mm (poses.csv, 0.5 px), each frame's line by 0.3 mm (the laser on printed
   // codes), and the camera that poses.csv was made with differs from ours by 3 px in the principal point: over lines of
-  // 150 mm at 550 mm that tilts each by up to 0.2 degrees, 0.4 mm. Together 0.6 mm.
-  EXPECT_LT(fit.rms_mm, 0.6) << fit.points << " points at z = " << fit.height_mm;
+  // 150 mm at 550 mm that tilts each by up to 0.2 degrees, 0.4 mm. Together 0.57 mm; each
+  // of the three is known to a quarter.
+  EXPECT_LT(fit.rms_mm, 0.7) << fit.points << " points at z = " << fit.height_mm;
 }
 
 }  // namespace
