@@ -118,30 +118,28 @@ bool clearly_larger(const std::vector<double>& a, const std::vector<double>& b, 
 
 using Tried = std::pair<LensModel, std::vector<double>>;  // a model and its errors by view
 
-/// Whether a richer model is worth its uncertainty: among many models one is better by chance, but hardly by this much.
-bool worth_it(const std::vector<double>& lean, const std::vector<double>& rich, double standard_errors) {
-  constexpr double kLeastGain = 0.002;
-  return mean(lean) > (1 + kLeastGain) * mean(rich) && clearly_larger(lean, rich, standard_errors);
+/// Whether a richer model is worth its uncertainty: among many models one is better by chance, but hardly by
+/// this much.
+bool worth_it(const std::vector<double>& lean, const std::vector<double>& rich) {
+  constexpr double kLeastGain = 0.002, kStandardErrors = 3;
+  return mean(lean) > (1 + kLeastGain) * mean(rich) && clearly_larger(lean, rich, kStandardErrors);
 }
 
 /// A tilted sensor without need only makes the camera's frame uncertain.
 bool tilt_worth_it(const std::vector<double>& upright, const std::vector<double>& tilted) {
-  return mean(upright) > 1.01 * mean(tilted) && worth_it(upright, tilted, 3);
+  return mean(upright) > 1.01 * mean(tilted) && worth_it(upright, tilted);
 }
 
-/// The leanest that is not clearly worse than the best; of two equally lean ones the first unless the tilted one is worth
-/// it.
-LensModel leanest_of_the_good(const std::vector<Tried>& tried, const Tried& best) {
-  for (auto first = tried.begin(); first != tried.end();) {
-    const auto terms = free_terms(first->first).size();
-    auto next = first;
-    const Tried* chosen = &*first;
-    for (; next != tried.end() && free_terms(next->first).size() == terms; ++next)
-      if (tilt_worth_it(chosen->second, next->second)) chosen = &*next;
-    if (!worth_it(chosen->second, best.second, 3)) return chosen->first;
-    first = next;
+/// From the leanest on, a richer model takes over where it is worth it; a tilted one where the tilt is.
+LensModel leanest_worth_it(const std::vector<Tried>& tried) {
+  const Tried* chosen = &tried.front();
+  for (const Tried& next : tried) {
+    const bool tilts = has_tilt(next.first) && !has_tilt(chosen->first);
+    const bool better =
+        tilts ? tilt_worth_it(chosen->second, next.second) : worth_it(chosen->second, next.second);
+    if (better) chosen = &next;
   }
-  return best.first;
+  return chosen->first;
 }
 
 }  // namespace
@@ -166,10 +164,7 @@ LensChoice choose_lens(const InitialValues& values, int sensor, const Calibratio
     tried.emplace_back(kCandidates[i], std::move(errors));
   }
   if (tried.empty()) return choice;
-  const auto best = std::min_element(tried.begin(), tried.end(), [](const auto& a, const auto& b) {
-    return mean(a.second) < mean(b.second);
-  });
-  choice.lens = leanest_of_the_good(tried, *best);
+  choice.lens = leanest_worth_it(tried);
   return choice;
 }
 

@@ -15,6 +15,8 @@ constexpr double kWhole = 0.9;
 /// 1-sigma shift of the centre at an end, px: a stripe cut off at 45 degrees is off by this where half the
 /// strength is left, a square end by 0.15 px.
 constexpr double kEndShift = 1.2;
+/// In sigma; an oblique cut of 45 degrees draws the end of its line 0.8 sigma aside.
+constexpr double kObliqueReach = 1.25;
 
 /// One line seen from one of its ends.
 struct EndView {
@@ -108,7 +110,10 @@ void mend_end(const EndView& end, double sigma, std::vector<FitPoint>& places) {
   // it.
   const Continuation test = continue_line(inside, *whole, *whole + retreat, end[*whole]);
   const double unexpected = std::abs(distance_across(test, end[*whole]));
-  const bool oblique = unexpected > 0.05 && unexpected > 3 * std::hypot(test.sigma, end[*whole].sigma_px);
+  // It draws it less than kObliqueReach aside; farther off the line bends.
+  const Continuation last = continue_line(inside, 0, *whole + retreat, end[0]);
+  const bool oblique = unexpected > 0.05 && unexpected > 3 * std::hypot(test.sigma, end[*whole].sigma_px) &&
+                       std::abs(distance_across(last, end[0])) < kObliqueReach * sigma;
   const std::size_t first_good = oblique ? *whole + retreat : *whole;
   for (std::size_t i = 0; i < first_good; ++i) {
     StripePoint& p = end[i];
