@@ -127,7 +127,7 @@ bool worth_it(const std::vector<double>& lean, const std::vector<double>& rich) 
 
 /// A tilted sensor without need only makes the camera's frame uncertain.
 bool tilt_worth_it(const std::vector<double>& upright, const std::vector<double>& tilted) {
-  return mean(upright) > 1.01 * mean(tilted) && worth_it(upright, tilted);
+  return mean(upright) > 1.01 * mean(tilted) && clearly_larger(upright, tilted, 3);
 }
 
 /// From the leanest on, a richer model takes over where it is worth it; a tilted one where the tilt is.

@@ -214,8 +214,10 @@ TEST_F(Recordings, TwoRunsDoNotWriteTheSameFiles) {
     execl("/bin/sh", "sh", "-c", line.c_str(), nullptr);
     _exit(127);
   }
-  while (!fs::exists(at("twice.partial.ply"))) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  while (!fs::exists(at("twice.partial.ply"))) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  kill(child, SIGSTOP);  // else it may be done before the second begins
   const auto second = reconstruct("scan.yaml", "twice");
+  kill(child, SIGCONT);
   EXPECT_EQ(second.exit_code, 1);
   EXPECT_THAT(second.err, HasSubstr("another run writes these files"));
   int status = 0;
