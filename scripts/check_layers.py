@@ -29,7 +29,6 @@ LIBRARY_IN = {
     r"opencv2/calib3d|opencv2/aruco|opencv2/objdetect": {"calib"},
     r"opencv2/": {"io", "calib", "extraction", "simulate", "apps"},
     r"CLI/": {"apps"},
-    r"spdlog/": {"apps"},
     r"fmt/": {"io", "calib", "reconstruct", "simulate", "measure", "apps"},
     r"tbb/|oneapi/tbb": {"calib", "reconstruct", "simulate", "apps"},
     r"hwy/": {"extraction"},
