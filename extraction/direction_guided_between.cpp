@@ -5,24 +5,38 @@
 #include <cmath>
 
 namespace lightstripe {
+namespace {
+
+/// 1 / sqrt(1 - e): what makes the sum of two unit vectors, weighted by u and 1 - u, a unit vector, where e
+/// is u (1 - u) times their squared difference.
+double inverse_root_below_one(double e) {
+  constexpr double kSmall = 0.003;  // from here the fifth term of the series is below 1e-10
+  return e < kSmall ? 1 + e * (0.5 + e * (0.375 + e * 0.3125)) : 1 / std::sqrt(1 - e);
+}
+
+}  // namespace
 
 void append_between(const RidgePlace& a, const RidgePlace& b, int steps, std::vector<StripePoint>& out) {
   const bool column_wise = a.direction.column_wise();
   const auto slope = [column_wise](const Direction& d) { return column_wise ? d.y / d.x : d.x / d.y; };
   const double from = column_wise ? a.x : a.y, span = column_wise ? b.x - a.x : b.y - a.y;
   const double start = column_wise ? a.y : a.x, end = column_wise ? b.y : b.x;
-  const double slope_a = slope(a.direction) * span, slope_b = slope(b.direction) * span;
+  // across = start + u (c1 + u (c2 + u c3))
+  const double c1 = slope(a.direction) * span, slope_b = slope(b.direction) * span;
+  const double c2 = 3 * (end - start) - 2 * c1 - slope_b, c3 = c1 + slope_b - 2 * (end - start);
+  const double turn_x = b.direction.x - a.direction.x, turn_y = b.direction.y - a.direction.y;
+  const double turn = turn_x * turn_x + turn_y * turn_y, step = 1.0 / steps;
   for (int k = 1; k < steps; ++k) {
-    const double u = static_cast<double>(k) / steps, v = 1 - u;
+    const double u = k * step, v = 1 - u;
     const double along = from + u * span;
-    const double across =
-        v * v * (1 + 2 * u) * start + u * u * (1 + 2 * v) * end + u * v * (v * slope_a - u * slope_b);
-    RidgePlace p;
+    const double across = start + u * (c1 + u * (c2 + u * c3));
+    const double scale = inverse_root_below_one(u * v * turn);
+    StripePoint& p = out.emplace_back();
     p.x = column_wise ? along : across;
     p.y = column_wise ? across : along;
-    p.direction = blended(a.direction, b.direction, u);
+    p.normal_x = -scale * (a.direction.y + u * turn_y);
+    p.normal_y = scale * (a.direction.x + u * turn_x);
     p.strength = v * a.strength + u * b.strength;
-    out.push_back(to_stripe_point(p));
   }
 }
 
