@@ -2,19 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "extraction/direction_guided_between.h"
 
-#include <cmath>
-
 namespace lightstripe {
-namespace {
-
-/// 1 / sqrt(1 - e): what makes the sum of two unit vectors, weighted by u and 1 - u, a unit vector, where e
-/// is u (1 - u) times their squared difference.
-double inverse_root_below_one(double e) {
-  constexpr double kSmall = 0.003;  // from here the fifth term of the series is below 1e-10
-  return e < kSmall ? 1 + e * (0.5 + e * (0.375 + e * 0.3125)) : 1 / std::sqrt(1 - e);
-}
-
-}  // namespace
 
 void append_between(const RidgePlace& a, const RidgePlace& b, int steps, std::vector<StripePoint>& out) {
   const bool column_wise = a.direction.column_wise();
@@ -26,11 +14,12 @@ void append_between(const RidgePlace& a, const RidgePlace& b, int steps, std::ve
   const double c2 = 3 * (end - start) - 2 * c1 - slope_b, c3 = c1 + slope_b - 2 * (end - start);
   const double turn_x = b.direction.x - a.direction.x, turn_y = b.direction.y - a.direction.y;
   const double turn = turn_x * turn_x + turn_y * turn_y, step = 1.0 / steps;
+  const double pixel = span > 0 ? 1.0 : -1.0;
   for (int k = 1; k < steps; ++k) {
     const double u = k * step, v = 1 - u;
-    const double along = from + u * span;
+    const double along = from + k * pixel;
     const double across = start + u * (c1 + u * (c2 + u * c3));
-    const double scale = inverse_root_below_one(u * v * turn);
+    const double scale = length_correction(turn, u);
     StripePoint& p = out.emplace_back();
     p.x = column_wise ? along : across;
     p.y = column_wise ? across : along;
