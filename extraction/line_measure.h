@@ -15,8 +15,8 @@ namespace lightstripe {
 /// Median of the values (their order is changed); 0 for none.
 double median_of(std::vector<float>& values);
 
-/// Every how many points a statistic over a line needs to look: some dozens are enough.
-inline std::size_t sample_step(const LineRange& r) { return 1 + r.size() / 80; }
+/// Every how many points a statistic over a line needs to look: some hundred are enough.
+inline std::size_t sample_step(const LineRange& r) { return 1 + r.size() / 150; }
 
 /// What measure_points finds besides, and its scratch memory.
 struct LineMeasures {
