@@ -3,6 +3,7 @@
 #include "extraction/extract_stripes.h"
 
 #include <fmt/format.h>
+#include <oneapi/tbb/enumerable_thread_specific.h>
 #include <oneapi/tbb/parallel_for.h>
 
 #include <filesystem>
@@ -15,6 +16,7 @@
 #include "core/error.h"
 #include "extraction/histogram_plot.h"
 #include "extraction/overlay.h"
+#include "extraction/workspace.h"
 #include "io/atomic_file.h"
 #include "io/images.h"
 #include "io/tables.h"
@@ -61,10 +63,17 @@ struct Extracted {
   std::size_t lines = 0, points = 0;
 };
 
+/// What one thread keeps from image to image.
+struct ExtractMemory {
+  ExtractionWorkspace workspace;
+  ExtractionResult result;
+};
+
 Extracted extract_one(const std::string& file, Channel channel, const ExtractionOptions& options,
-                      const std::optional<fs::path>& overlay, bool explain) {
+                      const std::optional<fs::path>& overlay, bool explain, ExtractMemory& memory) {
   const Image8 image = read_image(file, channel);
-  const ExtractionResult result = extract_stripes(image, options);
+  extract_stripes(image, options, memory.workspace, memory.result);
+  const ExtractionResult& result = memory.result;
   Extracted out;
   append_stripes(out.rows, file, result.stripes);
   out.lines = result.stripes.size();
@@ -95,13 +104,15 @@ int run_extract(const ExtractArguments& arguments) {
   std::ofstream table(file.temporary(), std::ios::binary);
   table << kStripesHeader;
   Progress progress("extracting", "images", static_cast<std::int64_t>(total), arguments.common.quiet);
+  oneapi::tbb::enumerable_thread_specific<ExtractMemory> memories;
   std::size_t lines = 0, points = 0;
   for (std::size_t begin = 0; begin < total; begin += batch) {
     std::vector<Extracted> results(std::min(batch, total - begin));
     oneapi::tbb::parallel_for(std::size_t{0}, results.size(), [&](std::size_t i) {
       const std::size_t index = begin + i;
       results[i] = extract_one(arguments.images[index], channel, options,
-                               overlays.empty() ? std::nullopt : std::optional(overlays[index]), arguments.explain);
+                               overlays.empty() ? std::nullopt : std::optional(overlays[index]), arguments.explain,
+                               memories.local());
       progress.step();
     });
     for (const auto& result : results) {

@@ -22,8 +22,9 @@ inline constexpr double kWidthLevel = 0.22313016014842982;
 inline double bar_width(double foot, double half) {
   constexpr double kGaussian = 0.4710;  // sqrt(3) / sqrt(2 ln 2) - 1
   if (!(half > 0)) return foot;
-  const double excess = std::fmin(std::fmax(foot / half - 1, 0.0), kGaussian);
-  return foot > (1 + kGaussian) * half ? foot : half * (1 + excess * excess / kGaussian);
+  if (foot > (1 + kGaussian) * half) return foot;
+  const double excess = foot > half ? foot / half - 1 : 0.0;
+  return half * (1 + excess * excess * (1 / kGaussian));
 }
 
 /// Lengths in px along the row or column.

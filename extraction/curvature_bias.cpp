@@ -30,8 +30,7 @@ FitPoint shift_of(const LocalFit& fit, double curvature_gain, double sigma, doub
 
 /// One stretch without gaps and bridges.
 void correct_stretch(std::span<StripePoint> points, double sigma, BendWorkspace& w) {
-  // The bend of a line that was smoothed over sigma changes little within one.
-  const auto stride = static_cast<std::size_t>(std::max(1.0, sigma));
+  const auto stride = static_cast<std::size_t>(evaluation_stride(sigma));
   const auto most = std::max<std::size_t>(
       3, static_cast<std::size_t>(std::lround((3.0 * sigma + 2) / static_cast<double>(stride))));
   w.nodes.clear();
@@ -51,12 +50,15 @@ void correct_stretch(std::span<StripePoint> points, double sigma, BendWorkspace&
     w.shifts[n] = w.shifts[kLeastReach];
     w.shifts[w.nodes.size() - 1 - n] = w.shifts[w.nodes.size() - 1 - kLeastReach];
   }
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const std::size_t n = i / stride;
-    const FitPoint &a = w.shifts[n], &b = w.shifts[std::min(n + 1, w.shifts.size() - 1)];
-    const double u = static_cast<double>(i % stride) / static_cast<double>(stride);
-    points[i].x += a.x + u * (b.x - a.x);
-    points[i].y += a.y + u * (b.y - a.y);
+  const double step = 1 / static_cast<double>(stride);
+  for (std::size_t n = 0; n < w.nodes.size(); ++n) {
+    const FitPoint a = w.shifts[n], b = w.shifts[std::min(n + 1, w.shifts.size() - 1)];
+    const double dx = step * (b.x - a.x), dy = step * (b.y - a.y);
+    const std::size_t first = n * stride, count = std::min(stride, points.size() - first);
+    for (std::size_t k = 0; k < count; ++k) {
+      points[first + k].x += a.x + static_cast<double>(k) * dx;
+      points[first + k].y += a.y + static_cast<double>(k) * dy;
+    }
   }
 }
 

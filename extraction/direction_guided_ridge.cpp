@@ -48,9 +48,9 @@ std::optional<Ridge> ridge_at(const Derivatives& d, const RidgeSearch& search, d
 }  // namespace
 
 Direction blended(const Direction& a, const Direction& b, double weight_b) {
-  const double x = a.x + weight_b * (b.x - a.x), y = a.y + weight_b * (b.y - a.y);
-  const double length = std::sqrt(x * x + y * y);
-  return {x / length, y / length};
+  const double dx = b.x - a.x, dy = b.y - a.y;
+  const double scale = length_correction(dx * dx + dy * dy, weight_b);
+  return {scale * (a.x + weight_b * dx), scale * (a.y + weight_b * dy)};
 }
 
 StripePoint to_stripe_point(const RidgePlace& place) {

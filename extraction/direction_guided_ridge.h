@@ -3,6 +3,7 @@
 // Tests single places of an image for the ridge of a line.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -28,6 +29,12 @@ struct Direction {
   }
   double dot(const Direction& o) const { return x * o.x + y * o.y; }
 };
+/// What makes (1 - u) a + u b a unit vector, for unit vectors whose difference has this squared length.
+inline double length_correction(double squared_difference, double u) {
+  constexpr double kSmall = 0.003;                    // up to here the series' next term is below 1e-10
+  const double e = u * (1 - u) * squared_difference;  // the sum's squared length is 1 - e
+  return e < kSmall ? 1 + e * (0.5 + e * (0.375 + e * 0.3125)) : 1 / std::sqrt(1 - e);
+}
 /// Unit vector between a and b, nearer to b with growing weight.
 Direction blended(const Direction& a, const Direction& b, double weight_b);
 

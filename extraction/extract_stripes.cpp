@@ -165,10 +165,11 @@ void hand_over(ExtractionWorkspace& w, int max_lines, const PixelPlace& origin, 
     const auto last = w.lines.points.begin() + static_cast<std::ptrdiff_t>(lines[k].end);
     auto& points = result.stripes[k].points;
     points.assign(first, last);
-    for (StripePoint& p : points) {
-      p.x += origin.x;
-      p.y += origin.y;
-    }
+    if (origin.x != 0 || origin.y != 0)
+      for (StripePoint& p : points) {
+        p.x += origin.x;
+        p.y += origin.y;
+      }
     const double dx = points.back().x - points.front().x, dy = points.back().y - points.front().y;
     if ((std::abs(dx) >= std::abs(dy) ? dx : dy) >= 0) continue;
     std::reverse(points.begin(), points.end());

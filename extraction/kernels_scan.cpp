@@ -48,7 +48,9 @@ bool candidates(const ScanRow<T>& row, int width, const ScanRule<T>& rule, std::
   bool any = false;
   const int last = width - rule.reach;
   int x = rule.reach;
-  for (; x + lanes <= last; x += lanes) {
+  // The last vector of a row overlaps the one before: rows seldom end where a vector does.
+  for (; x < last && rule.reach + lanes <= last; x += lanes) {
+    x = x + lanes <= last ? x : last - lanes;
     const auto grey = hn::LoadU(d, row.centre + x);
     const auto across_row = hn::Min(hn::SaturatedSub(grey, hn::LoadU(d, row.centre + x - rule.reach)),
                                     hn::SaturatedSub(grey, hn::LoadU(d, row.centre + x + rule.reach)));

@@ -102,13 +102,13 @@ void fill_between(std::size_t a, std::size_t b, LineSet& lines, LineMeasures& m)
   }
 }
 
-/// The points of one line by their own profiles: all of them near its ends, where each counts, further in one
-/// in sigma.
+/// The points of one line by their own profiles: all of them near its ends, where each counts, further in
+/// as many as are evaluated.
 template <class T>
 void measure_singly(ImageView<T> image, double sigma, double full_width, double clipped_level,
                     const LineRange& r, LineSet& lines, LineMeasures& m) {
   const auto edge = static_cast<std::size_t>(4 * sigma);
-  const auto stride = static_cast<std::size_t>(std::clamp(static_cast<int>(sigma), 1, 4));
+  const auto stride = static_cast<std::size_t>(evaluation_stride(sigma));
   std::size_t last = r.begin;
   for (std::size_t i = r.begin; i < r.end;) {
     const Crossing<T> c = crossing_at(image, lines.points[i]);
@@ -155,26 +155,30 @@ template void measure_points<std::uint16_t>(ImageView16, const DerivativeKernels
 
 namespace {
 
-/// Sums over the measured points of a window that slides along a line. `values`: width, width at half the
-/// peak, intensity and 1 for measured points, all 0 for bridged ones; one after the other.
+/// Sums over the measured points of a window that slides along a line. In single precision, which keeps sums
+/// of grey levels of 16 bits to 0.1.
 struct SlidingMeans {
-  static constexpr std::size_t kValues = 4;
-  std::array<float, kValues> sums{};
+  std::array<float, 4> sums{};  ///< width, width at half the peak, intensity and 1; bridged points count 0
 
-  void add(const float* values, float sign) {
-    for (std::size_t k = 0; k < kValues; ++k) sums[k] += sign * values[k];
+  void add(const float* values) {
+    for (std::size_t k = 0; k < sums.size(); ++k) sums[k] += values[k];
+  }
+  void remove(const float* values) {
+    for (std::size_t k = 0; k < sums.size(); ++k) sums[k] -= values[k];
   }
 };
 
+/// What SlidingMeans adds up, one point after the other.
 void collect_measures(const LineSet& lines, const LineRange& r, std::vector<float>& values) {
-  values.clear();
-  for (std::size_t i = r.begin; i < r.end; ++i) {
+  values.resize(4 * r.size());
+  float* out = values.data();
+  for (std::size_t i = r.begin; i < r.end; ++i, out += 4) {
     const StripePoint& p = lines.points[i];
-    const bool bridged = (p.flags & kStripeBridged) != 0;
-    // Grey levels of 16 bits in single precision: sums of sliding windows keep them to 0.1.
-    const float used = bridged ? 0.0F : 1.0F;
-    for (const float value : {static_cast<float>(p.width), lines.half_level_widths[i], p.intensity, 1.0F})
-      values.push_back(used * value);
+    const float used = (p.flags & kStripeBridged) != 0 ? 0.0F : 1.0F;
+    out[0] = used * static_cast<float>(p.width);
+    out[1] = used * lines.half_level_widths[i];
+    out[2] = used * p.intensity;
+    out[3] = used;
   }
 }
 
@@ -185,15 +189,17 @@ void smooth_measures(const DerivativeKernels& kernels, LineSet& lines, std::vect
   for (const LineRange& r : lines.lines) {
     collect_measures(lines, r, values);
     SlidingMeans means;
-    std::size_t first = 0, end = 0;
-    for (std::size_t i = 0; i < r.size(); ++i) {
-      for (; end < std::min(r.size(), i + reach + 1); ++end)
-        means.add(values.data() + end * SlidingMeans::kValues, 1.0F);
-      for (; first + reach < i; ++first) means.add(values.data() + first * SlidingMeans::kValues, -1.0F);
+    const std::size_t count = r.size();
+    for (std::size_t i = 0; i < std::min(count, reach); ++i) means.add(values.data() + 4 * i);
+    for (std::size_t i = 0; i < count; ++i) {
+      if (i + reach < count) means.add(values.data() + 4 * (i + reach));
+      if (i > reach) means.remove(values.data() + 4 * (i - reach - 1));
       const auto& [foot, half, intensity, used] = means.sums;
       if (used < 0.5F) continue;
-      lines.points[r.begin + i].width = bar_width(double{foot / used}, double{half / used});
-      lines.points[r.begin + i].intensity = intensity / used;
+      const float scale = 1 / used;
+      StripePoint& p = lines.points[r.begin + i];
+      p.width = bar_width(double{foot * scale}, double{half * scale});
+      p.intensity = intensity * scale;
     }
   }
 }

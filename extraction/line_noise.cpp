@@ -12,15 +12,20 @@
 namespace lightstripe {
 namespace {
 
+/// How fast grey levels fall beside the ridge, by the top of a Gaussian of the point's width: they fall by
+/// this times the squared distance.
+double fall_of(const StripePoint& p) {
+  return 0.5 * static_cast<double>(p.intensity) / std::max(p.width * p.width / 12, 0.25);  // 2 sqrt(3) s
+}
+
 /// The ridge's grey value at a point: that of the nearest pixel, put right for its distance from the centre
-/// line by the top of a Gaussian of the point's width.
+/// line.
 template <class T>
-double ridge_grey(ImageView<T> image, const StripePoint& p) {
+double ridge_grey(ImageView<T> image, const StripePoint& p, double fall) {
   const int x = std::clamp(static_cast<int>(p.x + 0.5), 0, image.width - 1);
   const int y = std::clamp(static_cast<int>(p.y + 0.5), 0, image.height - 1);
   const double across = (x - p.x) * p.normal_x + (y - p.y) * p.normal_y;
-  const double variance = std::max(p.width * p.width / 12, 0.25);  // width = 2 sqrt(3) s
-  return image(x, y) + static_cast<double>(p.intensity) * 0.5 * across * across / variance;
+  return image(x, y) + fall * across * across;
 }
 
 bool is_usable(const StripePoint& p) { return (p.flags & (kStripeBridged | kStripeSaturated)) == 0; }
@@ -43,7 +48,9 @@ double noise_on_ridge(ImageView<T> image, const LineSet& lines, const LineRange&
     const StripePoint &a = lines.points[i - 1], &b = lines.points[i], &c = lines.points[i + 1];
     if (!is_usable(a) || !is_usable(b) || !is_usable(c) || !are_neighbours(a, b) || !are_neighbours(b, c))
       continue;
-    const double second = ridge_grey(image, a) - 2 * ridge_grey(image, b) + ridge_grey(image, c);
+    const double fall = fall_of(b);
+    const double second =
+        ridge_grey(image, a, fall) - 2 * ridge_grey(image, b, fall) + ridge_grey(image, c, fall);
     scratch.push_back(static_cast<float>(std::abs(second)));
   }
   return scratch.size() < kLeast ? background_noise : kToSigma * median_of(scratch);

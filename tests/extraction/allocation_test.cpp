@@ -7,6 +7,8 @@
 #include <cstdlib>
 #include <new>
 
+#include "core/error.h"
+#include "extraction/extract_sequence.h"
 #include "extraction/extract_stripes.h"
 #include "extraction/workspace.h"
 #include "stripe_scenes.h"
@@ -79,6 +81,61 @@ TEST(Allocation, NoneWithSixteenBits) {
   ExtractionOptions options;
   options.sigma = 2.5;
   EXPECT_EQ(allocations_in_steady_state(wide, options), 0U);
+}
+
+/// The frames `rounds` times over.
+std::vector<ImageView8> repeated(const std::vector<Image8>& images, int rounds) {
+  std::vector<ImageView8> views;
+  for (int round = 0; round < rounds; ++round)
+    for (const Image8& image : images) views.push_back(image.view());
+  return views;
+}
+
+TEST(Allocation, ASequenceNeedsOnlyItsThreads) {
+  const auto images = frames();
+  const auto sequence = repeated(images, 8);
+  ExtractionOptions options;
+  options.sigma = 2.5;
+  for (const int threads : {1, 3}) {
+    SequenceWorkspace workspace;
+    std::vector<ExtractionResult> results;
+    for (int round = 0; round < 2; ++round) extract_stripes(sequence, options, threads, workspace, results);
+    const std::size_t before = allocations;
+    extract_stripes(sequence, options, threads, workspace, results);
+    // Not one a frame (24): the lists of errors and of threads, and two things that each thread starts with.
+    EXPECT_LE(allocations - before, 2U + 2U * static_cast<std::size_t>(threads - 1)) << threads;
+  }
+}
+
+TEST(Sequence, IsTheSingleFramesResultsForAnyNumberOfThreads) {
+  const auto images = frames();
+  const auto sequence = repeated(images, 3);
+  for (const int threads : {0, 1, 2, 5, 20}) {
+    const auto results = extract_stripes(sequence, {}, threads);
+    ASSERT_EQ(results.size(), sequence.size());
+    for (std::size_t i = 0; i < sequence.size(); ++i) {
+      const ExtractionResult alone = extract_stripes(sequence[i]);
+      ASSERT_EQ(results[i].stripes.size(), alone.stripes.size()) << threads << " threads, frame " << i;
+      for (std::size_t k = 0; k < alone.stripes.size(); ++k) {
+        const auto &a = results[i].stripes[k].points, &b = alone.stripes[k].points;
+        ASSERT_EQ(a.size(), b.size());
+        for (std::size_t p = 0; p < a.size(); ++p) {
+          EXPECT_EQ(a[p].x, b[p].x);
+          EXPECT_EQ(a[p].y, b[p].y);
+          EXPECT_EQ(a[p].sigma_px, b[p].sigma_px);
+          EXPECT_EQ(a[p].width, b[p].width);
+        }
+      }
+    }
+  }
+}
+
+TEST(Sequence, OfNoFramesIsEmptyAndBadOptionsAreErrors) {
+  EXPECT_TRUE(extract_stripes(std::span<const ImageView8>{}, {}, 4).empty());
+  ExtractionOptions options;
+  options.sigma = -1.0;
+  const auto images = frames();
+  EXPECT_THROW(extract_stripes(repeated(images, 2), options, 3), Error);
 }
 
 TEST(Allocation, TheCounterCounts) {
