@@ -148,7 +148,7 @@ TEST(FindStripeOnBoard, MeasuresARenderedStripeToATenthOfAPixel) {
                                     .laser_sigma_mm = 0.5,
                                     .laser_dark_albedo = 0.15};
       const auto board = testing::render_board(kCamera, kBoard, pose, look, 1);
-      const auto laser = testing::render_board(kCamera, kBoard, pose, look, 2, &sensor.laser_planes[0]);
+      const auto laser = testing::render_board(kCamera, kBoard, pose, look, 2, sensor.laser_planes);
       const auto found =
           find_stripe_on_board(laser, board, true_corners(kCamera, kBoard, pose), kBoard, 1, {});
       ASSERT_EQ(found.planes.size(), 1u) << found.reason;
