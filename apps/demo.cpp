@@ -106,7 +106,10 @@ int run_demo(const std::string& scene_file, bool wheel, const CommonOptions& com
   say(common, "2/4 calibrating the rig from the board images");
   stage.output = (folder / "rig.yaml").string();
   stage.quiet = true;
-  if (const int code = calibrate_session(simulated.session.string(), {}, {}, stage); code != kExitDone)
+  CalibrationFiles calibration;
+  calibration.report = (folder / "calibration.html").string();
+  if (const int code = calibrate_session(simulated.session.string(), {}, {}, stage, calibration);
+      code != kExitDone)
     return code;
 
   say(common, "3/4 reconstructing the scan");
@@ -135,7 +138,8 @@ int run_demo(const std::string& scene_file, bool wheel, const CommonOptions& com
           outcome.summary.points, outcome.summary.frames, rig.sensors.size(),
           static_cast<double>(outcome.summary.frames) / outcome.seconds, thread_count(common)));
   say(common, fmt::format("\ncloud      {0}/cloud.ply (picture: {0}/cloud.png)\nsections   {0}/profiles.csv\n"
-                          "{1}overlays   {0}/overlay/*.png\nrig        {0}/rig.yaml\ntruth      {0}/truth/",
+                          "{1}overlays   {0}/overlay/*.png\nrig        {0}/rig.yaml (report: {0}/calibration.html)\n"
+                          "truth      {0}/truth/",
                           folder.string(),
                           wear ? "measured   " + (folder / "measurements.csv").string() + "\n" : ""));
   return kExitDone;

@@ -35,7 +35,8 @@ void warn_of_gaps(const ScanSummary& summary) {
   if (summary.frames_without_points > 0)
     warn(fmt::format("{} frames show no stripe", summary.frames_without_points));
   if (summary.rays_missed > 0)
-    warn(fmt::format("{} stripe points do not meet their laser plane and are left out", summary.rays_missed));
+    warn(fmt::format("{} stripe points have no certain laser plane, or do not meet it, and are left out",
+                     summary.rays_missed));
 }
 
 int run_reconstruct(const ReconstructArguments& arguments) {

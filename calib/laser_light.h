@@ -19,7 +19,11 @@ struct AmbientChange {
 /// without contrast keeps gain 1.
 AmbientChange fit_ambient_change(ImageView8 laser, ImageView8 board);
 
-/// laser - (gain * board + offset), clipped to 0..255. Both pictures of one size.
+/// Grey level of no laser light in laser_light(): several times the noise, whose lower half would be clipped
+/// at 0, so that it passed for little noise and its peaks for light.
+inline constexpr int kDarkLevel = 12;
+
+/// kDarkLevel + laser - (gain * board + offset), clipped to 0..255. Both pictures of one size.
 Image8 laser_light(ImageView8 laser, ImageView8 board);
 
 }  // namespace lightstripe

@@ -14,7 +14,7 @@ Motion motion_in_rig(const Measurements& measurements, const MotionState& state,
   motion.type = measurements.motion;
   motion.rig_moves = measurements.rig_moves;
   if (motion.type != MotionType::kRotary) return motion;  // direction = x by the frame's definition
-  motion.axis_point = rig_from_first * state.axis_point;
+  motion.axis_point = rig_from_first * nearest_point_of_axis(state);
   motion.axis_direction = rig_from_first.rotation * state.direction;
   if (motion.axis_direction.y() < 0) {
     motion.axis_direction = -motion.axis_direction;
@@ -36,6 +36,11 @@ Rigid3 rig_from_first(const RigState& state, MotionType motion, const Eigen::Vec
         travels ? "up: the hint is parallel to the direction of travel; give another direction"
                 : "up: the hint is parallel to the first laser plane's normal; give another direction");
   return {rig_rotation(x, up), Eigen::Vector3d::Zero()};
+}
+
+Eigen::Vector3d nearest_point_of_axis(const MotionState& motion) {
+  const Eigen::Vector3d axis = motion.direction.normalized();
+  return motion.axis_point - axis.dot(motion.axis_point) * axis;
 }
 
 Rig rig_of(const Measurements& measurements, const RigState& state, const Eigen::Vector3d& up) {

@@ -15,8 +15,12 @@ namespace lightstripe {
 /// within 3 degrees.
 Rigid3 rig_from_first(const RigState& state, MotionType motion, const Eigen::Vector3d& up);
 
+/// Rotary: the axis' point that is nearest to the first camera, which is the rig's origin.
+Eigen::Vector3d nearest_point_of_axis(const MotionState& motion);
+
 /// The calibrated rig without its quality. Rotary motion: the axis is turned so that it grows with y; where
-/// that turns the sense of rotation, `rig_moves` changes sides, which is the same motion.
+/// that turns the sense of rotation, `rig_moves` changes sides, which is the same motion. Its point is the one
+/// nearest to the rig's origin.
 Rig rig_of(const Measurements& measurements, const RigState& state, const Eigen::Vector3d& up);
 
 }  // namespace lightstripe

@@ -82,6 +82,15 @@ void add_pose(const JointAdjustment& adjustment, const GlobalBlock& block, const
   sigmas[sensor + ".pose.translation_mm"] = total_sigma(adjustment, position);
 }
 
+/// Of the axis' point nearest to the camera, across the axis: along it no point is marked.
+double axis_sigma_mm(const JointAdjustment& adjustment) {
+  const Eigen::Vector3d axis = adjustment.state.motion->direction;
+  return total_sigma(adjustment, [&axis](const RigState& state) -> VectorXd {
+    const Eigen::Vector3d point = nearest_point_of_axis(*state.motion);
+    return point - axis.dot(point) * axis;
+  });
+}
+
 }  // namespace
 
 std::map<std::string, double> parameter_sigmas(const Measurements& measurements,
@@ -101,8 +110,7 @@ std::map<std::string, double> parameter_sigmas(const Measurements& measurements,
           total_sigma(adjustment, [](const RigState& s) -> VectorXd { return s.motion->direction; }) /
           kDegree;
     if (block.kind == Kind::kAxisPoint)
-      sigmas["motion.axis_point_mm"] =
-          total_sigma(adjustment, [](const RigState& s) -> VectorXd { return s.motion->axis_point; });
+      sigmas["motion.axis_point_mm"] = axis_sigma_mm(adjustment);
   }
   return sigmas;
 }

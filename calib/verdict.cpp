@@ -220,9 +220,9 @@ std::vector<std::string> warnings_about(const Measurements& measurements, const 
     warnings.push_back(fmt::format("the board is bowed by {:.2f} mm along x and {:.2f} mm along y; that is taken into "
                                    "account, a flatter board is surer",
                                    warp.x(), warp.y()));
-  if (measurements.motion != MotionType::kLinear)
+  if (measurements.motion == MotionType::kNone)
     warnings.push_back(
-        "no linear motion was calibrated: x is the first laser plane's normal, not the direction of travel");
+        "no motion was calibrated: x is the first laser plane's normal, not the direction of travel");
   return warnings;
 }
 

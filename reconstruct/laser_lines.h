@@ -16,7 +16,7 @@ namespace lightstripe {
 ///
 /// With a known Sensor::depth_range_mm: a plane may own a stripe only where the stripe lies in the part of the
 /// image that the plane can reach within that range; of stripes beside each other the order is that of the planes
-/// in the image, and no two of them share a plane (the pieces of a broken stripe do, one after the other along
+/// in the image (of lines that cross: at both ends), and no two of them share a plane (the pieces of a broken stripe do, one after the other along
 /// it). A stripe gets the plane that is the same in every assignment which holds to that.
 ///
 /// Without: stripes and planes are put in order along the direction in which the planes follow each other in the

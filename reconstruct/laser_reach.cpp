@@ -83,12 +83,9 @@ double place_of_plane(const Sensor& sensor, const Plane& plane, const Vector2d& 
   return std::abs(slope) > 1e-9 ? -plane.signed_distance(p) / slope : 0;
 }
 
-/// Whether plane a lies before plane b along the normal, next to the two lines, at the nearest or the
-/// farthest depth: planes that cross within the range may come in either order.
-bool in_order(const Sensor& sensor, int a, int b, const Line& first, const Line& second,
-              const Vector2d& normal) {
-  const Vector2d near =
-      0.5 * (first.pixels[first.pixels.size() / 2] + second.pixels[second.pixels.size() / 2]);
+/// Whether plane a lies before plane b along the normal, near a pixel, at the nearest or the farthest depth:
+/// planes that cross within the range may come in either order.
+bool in_order(const Sensor& sensor, int a, int b, const Vector2d& near, const Vector2d& normal) {
   const auto& planes = sensor.laser_planes;
   return std::any_of(sensor.depth_range_mm.begin(), sensor.depth_range_mm.end(), [&](double z) {
     return place_of_plane(sensor, planes[static_cast<std::size_t>(a)], near, normal, std::max(z, 1.0)) <
@@ -98,12 +95,43 @@ bool in_order(const Sensor& sensor, int a, int b, const Line& first, const Line&
 
 bool beside(const Line& a, const Line& b) { return std::min(a.last, b.last) > std::max(a.first, b.first); }
 
+/// Two lines next to each other: a pixel between them, and how far b lies behind a along the normal, px.
+struct Neighbours {
+  Vector2d between;
+  double b_behind_a;
+};
+
+/// At that place along the lines.
+Neighbours neighbours_at(const Line& a, const Line& b, const Vector2d& normal, double along_px) {
+  const Vector2d along(-normal.y(), normal.x());
+  const auto nearest = [&](const Line& line) {
+    return *std::min_element(line.pixels.begin(), line.pixels.end(), [&](const auto& p, const auto& q) {
+      return std::abs(along.dot(p) - along_px) < std::abs(along.dot(q) - along_px);
+    });
+  };
+  const Vector2d p = nearest(a), q = nearest(b);
+  return {0.5 * (p + q), normal.dot(q - p)};
+}
+
+/// Where two lines are compared: by their means, or where they cross at both ends.
+std::vector<Neighbours> neighbours(const Line& a, const Line& b, const Vector2d& normal) {
+  constexpr double kApart_px = 5;  // less at an end is no order: lines that touch
+  const auto start = neighbours_at(a, b, normal, std::max(a.first, b.first));
+  const auto end = neighbours_at(a, b, normal, std::min(a.last, b.last));
+  const bool apart = std::min(std::abs(start.b_behind_a), std::abs(end.b_behind_a)) > kApart_px;
+  if (apart && start.b_behind_a * end.b_behind_a < 0) return {start, end};
+  return {{0.5 * (a.pixels[a.pixels.size() / 2] + b.pixels[b.pixels.size() / 2]), b.place - a.place}};
+}
+
 bool compatible(const Sensor& sensor, const Line& a, int plane_a, const Line& b, int plane_b,
                 const Vector2d& normal) {
   if (!beside(a, b)) return true;
   if (plane_a == plane_b) return false;
-  return a.place < b.place ? in_order(sensor, plane_a, plane_b, a, b, normal)
-                           : in_order(sensor, plane_b, plane_a, b, a, normal);
+  const auto places = neighbours(a, b, normal);
+  return std::all_of(places.begin(), places.end(), [&](const Neighbours& place) {
+    return place.b_behind_a > 0 ? in_order(sensor, plane_a, plane_b, place.between, normal)
+                                : in_order(sensor, plane_b, plane_a, place.between, normal);
+  });
 }
 
 /// Walks all assignments that hold; notes for each line which planes it gets in them.

@@ -24,6 +24,7 @@ function table(parent, header, rows) {
   });
 }
 
+const signed = v => (Math.round(1000 * v) / 1000 || 0).toFixed(3);  // no -0.000
 const mm = (v, digits = 4) => v > 0 ? v.toFixed(digits) : '-';
 
 function showVerdict() {
@@ -33,8 +34,9 @@ function showVerdict() {
   const s = at('summary');
   if (data.shape_mm > 0)
     element('p', `A section is predicted to be right to ${mm(data.shape_mm)} mm in shape (after a rigid move) and ` +
-      `${mm(data.absolute_mm, 3)} mm in place, 1 sigma. Board bowed by ${data.warp_mm[0].toFixed(3)} mm along x and ` +
-      `${data.warp_mm[1].toFixed(3)} mm along y.`, s);
+      `${mm(data.absolute_mm, 3)} mm in place, 1 sigma. ` + (data.warp_mm[0] || data.warp_mm[1] ?
+      `Board bowed by ${signed(data.warp_mm[0])} mm along x and ${signed(data.warp_mm[1])} mm along y.` :
+      'The board was taken as flat.'), s);
   table(s, ['sensor', 'lens', 'corners px', 'stripe px', 'views', 'with stripe', 'image covered'],
     data.sensors.map(q => [q.name, q.lens, q.board_rms_px.toFixed(3), q.stripe_rms_px.toFixed(3), q.board_views,
       q.stripe_views, q.coverage >= 0 ? Math.round(100 * q.coverage) + ' %' : '-']));
@@ -58,19 +60,31 @@ function showMap(field, title) {
   const sorted = (near.length ? near : data.map).map(c => c[field]).sort((a, b) => a - b);
   const low = sorted[0], high = sorted[Math.floor(0.99 * (sorted.length - 1))];
   const color = c => heat((c[field] - low) / Math.max(1e-9, high - low));
+  showScale(card, low, high);
   new Chart(canvas, {
     type: 'scatter',
     data: { datasets: data.sensors.map((s, i) => {
       const cells = data.map.filter(c => c.sensor === i);
       return { label: s.name, data: cells.map(c => ({ x: c.u, y: c.v, value: c[field] })),
-        pointStyle: i % 2 ? 'rectRot' : 'rect', pointRadius: 6,
+        pointStyle: i % 2 ? 'rectRot' : 'rect', pointRadius: 6, backgroundColor: 'transparent', borderColor: '#475569',
         pointBackgroundColor: cells.map(c => c.extrapolated ? 'transparent' : color(c)), pointBorderColor: cells.map(color) };
     }) },
     options: { animation: false, aspectRatio: 1.25,
-      plugins: { title: { display: true, text: `${title}: ${low.toFixed(4)} (blue) to ${high.toFixed(4)} mm (red)` },
+      plugins: { legend: pointLegend, title: { display: true, text: title },
         tooltip: { callbacks: { label: c => `${c.raw.value.toFixed(4)} mm at y ${c.raw.x.toFixed(0)}, z ${c.raw.y.toFixed(0)}` } } },
       scales: { x: { title: { display: true, text: 'y of the rig, mm' } }, y: { title: { display: true, text: 'z of the rig, mm' } } } }
   });
+}
+
+// One colour says nothing there: cells and lines have their own.
+const pointLegend = { labels: { usePointStyle: true } };
+
+function showScale(card, low, high) {
+  const scale = element('div', undefined, card, 'scale');
+  element('span', low.toFixed(4) + ' mm', scale);
+  const bar = element('i', undefined, scale);
+  bar.style.background = `linear-gradient(to right, ${[0, 0.25, 0.5, 0.75, 1].map(heat).join(', ')})`;
+  element('span', high.toFixed(4) + ' mm or more', scale);
 }
 
 function showViews() {
@@ -82,7 +96,8 @@ function showViews() {
       { label: 'stripe, rms px', data: data.views.map(v => v.stripe_rms_px), backgroundColor: colors[1] },
       { label: 'left out', data: data.views.map(v => v.left_out), backgroundColor: '#9ca3af', yAxisID: 'count' }] },
     options: { animation: false, scales: { x: { ticks: { autoSkip: true, font: { size: 9 } } },
-      y: { title: { display: true, text: 'px' } }, count: { position: 'right', grid: { display: false }, title: { display: true, text: 'points' } } } }
+      y: { title: { display: true, text: 'px' } }, count: { position: 'right', grid: { display: false }, ticks: { precision: 0 },
+        title: { display: true, text: 'points left out' } } } }
   });
 }
 
@@ -97,18 +112,19 @@ function showResiduals(sensor, index) {
   const own = data.residuals.filter(r => data.views[r[0]].sensor === sensor.name);
   const card = element('div', undefined, at('residuals'), 'card');
   const lengths = own.filter(r => r[1] && r[2]).map(r => Math.hypot(r[5], r[6])).sort((a, b) => a - b);
-  const scale = Math.round(0.025 * sensor.size[0] / Math.max(1e-4, lengths[Math.floor(lengths.length / 2)] || 1));
+  const scale = Math.round(0.014 * sensor.size[0] / Math.max(1e-4, lengths[Math.floor(lengths.length / 2)] || 1));
   const corners = own.filter(r => r[1] && r[2]), stripe = own.filter(r => !r[1] && r[2]), out = own.filter(r => !r[2]);
   new Chart(element('canvas', undefined, card), {
     type: 'scatter',
     data: { datasets: [
       { label: 'corners', data: arrows(corners, scale), showLine: true, spanGaps: false, pointRadius: 0, borderWidth: 1, borderColor: colors[index % 6],
-        borderDash: [1e6, 0] },  // solid; without it Chart.js thins lines out,
-      { label: 'stripe', data: stripe.map(r => ({ x: r[3], y: r[4] })), pointRadius: 1, pointBackgroundColor: '#dc262688', pointBorderWidth: 0 },
-      { label: 'left out', data: out.map(r => ({ x: r[3], y: r[4] })), pointStyle: 'crossRot', pointRadius: 4, pointBorderColor: '#111' }] },
-    options: { animation: false, parsing: false, aspectRatio: sensor.size[0] / sensor.size[1],
-      plugins: { title: { display: true, text: `${sensor.name}, arrows ${scale} times as long` } },
-      scales: { x: { min: 0, max: sensor.size[0], title: { display: true, text: 'px' } }, y: { min: 0, max: sensor.size[1], reverse: true } } }
+        borderDash: [1e6, 0] },  // solid; without it Chart.js thins lines out
+      { label: 'stripe', order: -1, data: stripe.map(r => ({ x: r[3], y: r[4] })), pointRadius: 1.5, pointBackgroundColor: index % 6 === 1 ? '#1e293b' : '#dc2626', pointBorderWidth: 0 },
+      { label: 'left out', order: -2, data: out.map(r => ({ x: r[3], y: r[4] })), pointStyle: 'crossRot', pointRadius: 4, pointBorderColor: '#111' }] },
+    options: { animation: false, aspectRatio: sensor.size[0] / sensor.size[1],
+      plugins: { legend: pointLegend, title: { display: true, text: `${sensor.name}, arrows ${scale} times as long` } },
+      scales: { x: { min: 0, max: sensor.size[0], title: { display: true, text: 'x of the image, px' } },
+        y: { min: 0, max: sensor.size[1], reverse: true, title: { display: true, text: 'y of the image, px' } } } }
   });
 }
 
@@ -159,7 +175,7 @@ function showRig() {
   data.rig3d.sheets.forEach(s => { addSheet(s.corners, 0xff3030, scene); line(s.corners, 0xff6060, scene, true); });
   const middle = all.getCenter(new THREE.Vector3()), size = all.getSize(new THREE.Vector3()).length();
   [[1, 0, 0], [0, 1, 0], [0, 0, 1]].forEach((d, i) => line([[0, 0, 0], d.map(v => v * size / 6)], [0xff5555, 0x55ff55, 0x6688ff][i], scene));
-  camera.position.copy(middle).add(new THREE.Vector3(1.1 * size, -0.9 * size, 0.5 * size));
+  camera.position.copy(middle).add(new THREE.Vector3(0.95 * size, -0.78 * size, 0.43 * size));
   const controls = new THREE.OrbitControls(camera, renderer.domElement);
   controls.target.copy(middle);
   const draw = () => renderer.render(scene, camera);

@@ -19,6 +19,7 @@ using testing::rail_rig;
 CalibrationOptions brown4() {
   CalibrationOptions options;
   options.lens = LensModel::kBrown4;
+  options.board_warp = true;
   return options;
 }
 

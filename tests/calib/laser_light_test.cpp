@@ -38,8 +38,8 @@ TEST(LaserLight, KeepsTheLineWhereTheBoardPictureIsBrighterThanTheLaser) {
   const Pair pair(0.25, 7);
   const Image8 light = laser_light(pair.laser, pair.board);
   for (int y = 0; y < 80; ++y) {
-    EXPECT_NEAR(light(50, y), 60, 9) << y;  // 1.5 grey levels of noise, 4 sigma, and the roundings
-    EXPECT_LE(light(20, y), 8) << y;
+    EXPECT_NEAR(light(50, y), kDarkLevel + 60, 9) << y;  // 1.5 grey levels of noise, 4 sigma, and the roundings
+    EXPECT_NEAR(light(20, y), kDarkLevel, 8) << y;
   }
 }
 
@@ -49,7 +49,7 @@ TEST(LaserLight, SubtractsOneToOneWhereTheBoardPictureHasNoContrast) {
   const AmbientChange change = fit_ambient_change(laser, board);
   EXPECT_EQ(change.gain, 1.0);
   EXPECT_EQ(change.offset, 3.0);
-  EXPECT_EQ(laser_light(laser, board)(30, 10), 157);
+  EXPECT_EQ(laser_light(laser, board)(30, 10), kDarkLevel + 157);
 }
 
 TEST(LaserLight, IsNotMisledByAReflectionOnOneLevel) {

@@ -67,7 +67,7 @@ TEST(LensModels, AutomaticChoiceFindsTheTiltedSensor) {
   // as good, and may be chosen.)
   auto distortion = kScheimpflug;
   distortion[12] = distortion[13] = 5.6 * kDegree;
-  const auto result = calibrate_rig(observe(rig_with(distortion)));
+  const auto result = calibrate_rig(observe(rig_with(distortion)), with_lens(LensModel::kAuto));
   ASSERT_TRUE(result.summary.usable) << result.summary.message;
   ASSERT_EQ(result.summary.lenses.size(), 2u);
   for (const auto& choice : result.summary.lenses)
@@ -76,7 +76,7 @@ TEST(LensModels, AutomaticChoiceFindsTheTiltedSensor) {
 }
 
 TEST(LensModels, AutomaticChoiceIsTheLeanestOfEqualOnes) {
-  const auto result = calibrate_rig(observe(rig_with({-0.1, 0.1, 4e-4, -3e-4})));
+  const auto result = calibrate_rig(observe(rig_with({-0.1, 0.1, 4e-4, -3e-4})), with_lens(LensModel::kAuto));
   ASSERT_TRUE(result.summary.usable) << result.summary.message;
   for (const auto& choice : result.summary.lenses) {
     EXPECT_EQ(choice.lens, LensModel::kBrown4);
@@ -91,7 +91,7 @@ TEST(LensModels, AutomaticChoiceTakesTheRationalTermsThatAWideLensNeeds) {
   truth.target.pitch_x = truth.target.pitch_y = 50;
   const auto session =
       observe(truth, {.poses = 30, .max_tilt_deg = 40, .corner_noise_px = 0.02, .stripe_noise_px = 0.02});
-  const auto chosen = calibrate_rig(session);
+  const auto chosen = calibrate_rig(session, with_lens(LensModel::kAuto));
   ASSERT_TRUE(chosen.summary.usable) << chosen.summary.message;
   const auto lens = chosen.summary.lenses[0].lens;
   EXPECT_TRUE(lens == LensModel::kRational || lens == LensModel::kTiltedRational) << enum_name(lens);
@@ -174,7 +174,7 @@ TEST(GivenCamera, StaysFixedToTheLastBit) {
   const auto truth = rail_rig(2, 3);
   auto observations = observe(truth, {.poses = 6});
   observations.sensors[0].given_camera = GivenCamera{truth.sensors[0].camera, true};
-  const auto result = calibrate_rig(observations);
+  const auto result = calibrate_rig(observations, with_lens(LensModel::kAuto));
   ASSERT_TRUE(result.summary.usable) << result.summary.message;
   EXPECT_EQ(result.rig.sensors[0].camera.fx, truth.sensors[0].camera.fx);
   EXPECT_EQ(result.rig.sensors[0].camera.distortion, truth.sensors[0].camera.distortion);

@@ -68,6 +68,7 @@ Trial trial(std::uint64_t seed) {
   const auto observations = testing::observe(truth, {.poses = 20, .seed = 100 + seed});
   CalibrationOptions options;
   options.lens = LensModel::kBrown4;  // the true model: the prediction knows nothing of terms left out
+  options.board_warp = true;
   const auto result = calibrate_rig(observations, options);
   EXPECT_TRUE(result.summary.usable) << result.summary.message;
   Trial trial;

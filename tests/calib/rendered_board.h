@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
+#include <span>
 #include <vector>
 
 #include "core/board.h"
@@ -43,16 +44,26 @@ inline int square_at(const Target& target, double x, double y, const BoardLook& 
   return rim ? 2 : 0;
 }
 
-inline double brightness(const Target& target, const Rigid3& cam_from_board, const Plane* laser,
+inline double brightness(const Target& target, const Rigid3& cam_from_board, std::span<const Plane> lasers,
                          const BoardLook& look, double x, double y) {
   const int square = square_at(target, x, y, look);
   if (square == 0) return look.background * look.ambient;
   double value = look.ambient * (square == 1 ? look.dark : look.light);
-  if (laser && look.laser_peak > 0) {
-    const double d = laser->signed_distance(cam_from_board * Eigen::Vector3d(x, y, 0)) / look.laser_sigma_mm;
+  for (const Plane& laser : lasers) {
+    const double d = laser.signed_distance(cam_from_board * Eigen::Vector3d(x, y, 0)) / look.laser_sigma_mm;
     value += look.laser_peak * (square == 1 ? look.laser_dark_albedo : 1.0) * std::exp(-0.5 * d * d);
   }
   return value;
+}
+
+/// Whether laser light reaches the pixel, whose left side's middle is `left`.
+inline bool lit(const Rigid3& cam_from_board, std::span<const Plane> lasers, const BoardLook& look,
+                const Eigen::Vector2d& left, const Eigen::Vector2d& dx, const Eigen::Vector2d& dy) {
+  const Eigen::Vector2d middle = left + 0.5 * dx;
+  const Eigen::Vector3d p = cam_from_board * Eigen::Vector3d(middle.x(), middle.y(), 0);
+  return std::any_of(lasers.begin(), lasers.end(), [&](const Plane& laser) {
+    return std::abs(laser.signed_distance(p)) < 5 * look.laser_sigma_mm + dx.norm() + dy.norm();
+  });
 }
 
 /// Whether the pixel, whose left side's middle is `left`, shows one square only.
@@ -68,9 +79,10 @@ inline bool uniform(const Target& target, const BoardLook& look, const Eigen::Ve
 
 }  // namespace detail
 
-/// What the camera sees of the board at cam_from_board, lit by the laser plane where one is given.
+/// What the camera sees of the board at cam_from_board, lit by the laser planes.
 inline Image8 render_board(const Camera& camera, const Target& target, const Rigid3& cam_from_board,
-                           const BoardLook& look = {}, std::uint64_t seed = 1, const Plane* laser = nullptr) {
+                           const BoardLook& look = {}, std::uint64_t seed = 1,
+                           std::span<const Plane> lasers = {}) {
   constexpr int kSub = 6;
   cv::Mat1f picture(camera.height, camera.width);
   const Rigid3 board_from_cam = cam_from_board.inverse();
@@ -85,13 +97,14 @@ inline Image8 render_board(const Camera& camera, const Target& target, const Rig
     for (int x = 0; x < camera.width; ++x) {
       const Eigen::Vector2d right = on_board({x + 0.5, y});
       const Eigen::Vector2d dx = right - left, dy = low - left;
-      const bool edge = laser || !detail::uniform(target, look, left, dx, dy);
+      const bool edge = detail::lit(cam_from_board, lasers, look, left, dx, dy) ||
+                        !detail::uniform(target, look, left, dx, dy);
       const int sub = edge ? kSub : 1;
       double sum = 0;
       for (int j = 0; j < sub; ++j) {
         for (int i = 0; i < sub; ++i) {
           const Eigen::Vector2d at = left + ((i + 0.5) / sub) * dx + ((j + 0.5) / sub - 0.5) * dy;
-          sum += detail::brightness(target, cam_from_board, laser, look, at.x(), at.y());
+          sum += detail::brightness(target, cam_from_board, lasers, look, at.x(), at.y());
         }
       }
       picture(y, x) = static_cast<float>(sum / (sub * sub));

@@ -20,6 +20,7 @@ const testing::SessionOptions kPerfect{.poses = 12, .corner_noise_px = 0, .strip
 CalibrationOptions brown5() {
   CalibrationOptions options;
   options.lens = LensModel::kBrown5;
+  options.board_warp = true;
   return options;
 }
 

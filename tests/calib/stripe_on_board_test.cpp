@@ -148,7 +148,7 @@ TEST(FindStripeOnBoard, MeasuresARenderedStripeToATenthOfAPixel) {
                                     .laser_sigma_mm = 0.5,
                                     .laser_dark_albedo = 0.15};
       const auto board = testing::render_board(kCamera, kBoard, pose, look, 1);
-      const auto laser = testing::render_board(kCamera, kBoard, pose, look, 2, &sensor.laser_planes[0]);
+      const auto laser = testing::render_board(kCamera, kBoard, pose, look, 2, sensor.laser_planes);
       const auto found =
           find_stripe_on_board(laser, board, true_corners(kCamera, kBoard, pose), kBoard, 1, {});
       ASSERT_EQ(found.planes.size(), 1u) << found.reason;
@@ -157,6 +157,26 @@ TEST(FindStripeOnBoard, MeasuresARenderedStripeToATenthOfAPixel) {
       EXPECT_LT(error.rms, 0.1);
       EXPECT_LT(std::abs(error.mean), 0.03);
     }
+  }
+}
+
+TEST(FindStripeOnBoard, FindsABroadStripeInTheDarkWhateverTheNoise) {
+  // The laser picture is far darker than the board's, so that half of the difference's noise is negative.
+  const testing::BoardLook bright{.dark = 20, .light = 190, .background = 10, .noise = 2};
+  const testing::BoardLook dim{.dark = 8,
+                               .light = 45,
+                               .background = 5,
+                               .noise = 2,
+                               .laser_peak = 120,
+                               .laser_sigma_mm = 0.9,
+                               .laser_dark_albedo = 0.1};
+  for (int i = 0; i < 6; ++i) {
+    const Rigid3 pose = board_pose(kBoard, {0, 0, 540.0 + 10 * i}, 5.0 * i - 15, 10, 12.0 * i - 30);
+    const auto board = testing::render_board(kCamera, kBoard, pose, bright, 1);
+    const auto laser = testing::render_board(kCamera, kBoard, pose, dim, 2, kFlat.laser_planes);
+    const auto found = find_stripe_on_board(laser, board, true_corners(kCamera, kBoard, pose), kBoard, 1, {});
+    ASSERT_EQ(found.planes.size(), 1u) << i << ": " << found.reason;
+    EXPECT_GT(found.planes[0].size(), 10u) << i;
   }
 }
 

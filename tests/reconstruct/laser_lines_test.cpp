@@ -5,6 +5,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
+
 namespace lightstripe {
 namespace {
 
@@ -159,6 +161,35 @@ TEST(AssignLaserPlanesByReach, OneLineTooManyLeavesThoseItTouchesOpen) {
       {upright(column(0, 450)), upright(column(0, 445)), upright(column(1, 450)), upright(column(2, 450))},
       sensor);
   EXPECT_THAT(planes, kNone);
+}
+
+/// Where a sheet n.X = d meets a wall at depth z, from column 200 to 440.
+Stripe line_on_wall(const Plane& sheet, double z) {
+  Stripe stripe;
+  const Eigen::Vector2d across = sheet.normal.head<2>().normalized();
+  for (double x = 200; x <= 440; x += 4) {
+    const double x_mm = (x - 320) / 1000 * z;
+    const double y_mm = (sheet.offset - sheet.normal.z() * z - sheet.normal.x() * x_mm) / sheet.normal.y();
+    stripe.points.push_back(
+        {.x = x, .y = 240 + 1000 * y_mm / z, .normal_x = across.x(), .normal_y = across.y()});
+  }
+  return stripe;
+}
+
+TEST(AssignLaserPlanesByReach, LinesThatCrossGoByTheirOrderAtBothEnds) {
+  // Sheets turned by 30 degrees to both sides of the line of sight, from below; they meet in the middle.
+  std::vector<Plane> planes;
+  for (const double turn : {-0.52, 0.52}) {
+    const Vector3d n = Eigen::AngleAxisd(turn, Vector3d::UnitZ()) * Vector3d(0, 0.766, 0.643);
+    planes.push_back({n, 450 * n.z()});
+  }
+  auto sensor = sensor_with(planes);
+  sensor.depth_range_mm = {380, 520};
+  for (const double z : {430.0, 450.0, 470.0}) {
+    const Stripe a = line_on_wall(planes[0], z), b = line_on_wall(planes[1], z);
+    EXPECT_THAT(assign_laser_planes({a, b}, sensor), ElementsAre(0, 1)) << z;
+    EXPECT_THAT(assign_laser_planes({b, a}, sensor), ElementsAre(1, 0)) << z;
+  }
 }
 
 }  // namespace
