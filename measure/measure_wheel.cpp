@@ -96,9 +96,17 @@ Tip find_tip_itself(const PlacedSection& placed) {
   return tip;
 }
 
-/// Over the tip the stripes of the sensors on its either side end, and near its end a stripe is seen too low.
-/// So the wider surroundings tell where it is, by their difference to the reference, unless the tip's own
-/// shape contradicts them.
+/// Whether the section has points about a place that lie well inside their stripes.
+bool well_seen(const PlacedSection& placed, const Vector2d& place) {
+  constexpr double kAboutMm = 1.6, kGood = 0.5;
+  return std::any_of(placed.points.begin(), placed.points.end(), [&](const Vector2d& p) {
+    return (p - place).norm() < kAboutMm && weight_of(placed, p) > kGood;
+  });
+}
+
+/// Where the stripes of the sensors on either side of the tip end near it, both see it too low. Then the
+/// wider surroundings tell where it is, by their difference to the reference, unless the tip's own shape
+/// contradicts them.
 Tip find_tip(const PlacedSection& placed) {
   constexpr double kHalfWidthMm = 5, kSmoothMm = 0.03, kAgreesMm = 0.05, kDerivativeMm = 0.5;
   const Tip itself = find_tip_itself(placed);
@@ -106,8 +114,8 @@ Tip find_tip(const PlacedSection& placed) {
   const SurfaceFit around = fit_surface(placed, {top, up, -kHalfWidthMm, kHalfWidthMm, 60, 2});
   const auto before = placed.reference.surface_along(top, up, kDerivativeMm);
   const auto after = placed.reference.surface_along(top, up, -kDerivativeMm);
-  if (!itself.height.known() || !around.known() || around.rms_mm > kSmoothMm || !before || !after)
-    return itself;
+  if (!itself.height.known() || well_seen(placed, {itself.u, itself.height.value})) return itself;
+  if (!around.known() || around.rms_mm > kSmoothMm || !before || !after) return itself;
   const double curvature =
       (*before + *after - 2 * placed.reference.top_v()) / (kDerivativeMm * kDerivativeMm);
   if (curvature >= 0) return itself;
@@ -133,19 +141,14 @@ Place face_itself(const PlacedSection& placed, double v, double half_height_mm, 
   return place_from(fit_polynomial(samples, degree, kMinScaleMm), tip_u, placed.registration, what);
 }
 
-/// The same at the height of a place, whose error shifts it along the face. With less scatter, by the
-/// difference to the reference from `below_mm` to `above_mm`, unless the points next to it contradict that.
-Place face_at(const PlacedSection& placed, const Place& height, double over_mm, double below_mm,
-              double above_mm, double tip_u, const std::string& what) {
-  constexpr double kReachMm = 30, kSmoothMm = 0.03, kAgreesMm = 0.08;
+/// The same at the height of a place, whose error shifts it along the face.
+Place face_at(const PlacedSection& placed, const Place& height, double over_mm, double half_height_mm,
+              double tip_u, const std::string& what) {
   const double v = height.value + over_mm;
-  Place itself = face_itself(placed, v, std::min(1.0, above_mm), tip_u, what);
-  const SurfaceFit around = fit_surface(placed, {{tip_u, v}, {1, 0}, -below_mm, above_mm, kReachMm, 2});
-  if (!itself.known() || !around.known()) return itself;
-  const double shifted = around.slope * height.sigma, u = tip_u + around.along_mm;
-  itself.sigma = std::hypot(itself.sigma, shifted);
-  if (around.rms_mm > kSmoothMm || std::abs(u - itself.value) > kAgreesMm) return itself;
-  return {"", u, std::hypot(around.local_sigma_mm, shifted)};
+  Place face = face_itself(placed, v, half_height_mm, tip_u, what);
+  const SurfaceFit around = fit_surface(placed, {{tip_u, v}, {1, 0}, -2, 1, 30, 2});
+  if (around.known()) face.sigma = std::hypot(face.sigma, around.slope * height.sigma);
+  return face;
 }
 
 Estimate difference(const Place& a, const Place& b) {
@@ -240,9 +243,9 @@ WheelMeasurement measure_wheel(const Section& section, const ReferenceShape& ref
     out.flange_thickness = out.qr = Estimate::unknown(tread.known() ? tip.height.reason : tread.reason);
     return out;
   }
-  const Place face = face_at(placed, tread, options.face_height_mm, 1.0, 1.0, tip.u, "flange face");
+  const Place face = face_at(placed, tread, options.face_height_mm, 1.0, tip.u, "flange face");
   const Place upper =
-      face_at(placed, tip.height, -options.qr_below_tip_mm, 2.0, 1.0, tip.u, "flange below its tip");
+      face_at(placed, tip.height, -options.qr_below_tip_mm, 0.8, tip.u, "flange below its tip");
   out.flange_thickness = difference(face, back);
   out.qr = difference(face, upper);
   return out;
