@@ -60,24 +60,28 @@ std::optional<double> reference_radius(const PlacedSection& placed, const Vector
   return hit->s;
 }
 
-/// Fills holes of at most two sectors from their neighbours; false if there is a larger one.
-bool fill_holes(std::vector<Sector>& sectors) {
-  constexpr int kLargestHole = 2;
+/// Bridges holes (glare) of at most eight sectors, some 4 mm, in a straight way. Returns the variance of what
+/// is summed over them: between its two sides a hole's mean may lie anywhere. Nothing if there is a larger
+/// hole.
+std::optional<double> bridge_holes(std::vector<Sector>& sectors) {
+  constexpr int kLargestHole = 8;
   const int n = static_cast<int>(sectors.size());
+  double variance = 0;
   int last = -1;
   for (int i = 0; i <= n; ++i) {
     if (i < n && !sectors[static_cast<std::size_t>(i)].value) continue;
     const int hole = i - last - 1;
-    if (hole > kLargestHole) return false;
+    if (hole > kLargestHole || hole == n) return std::nullopt;
     for (int k = last + 1; k < i; ++k) {
       const double before = last >= 0 ? *sectors[static_cast<std::size_t>(last)].value
                                       : *sectors[static_cast<std::size_t>(i)].value;
       const double after = i < n ? *sectors[static_cast<std::size_t>(i)].value : before;
       sectors[static_cast<std::size_t>(k)].value = before + (after - before) * (k - last) / (hole + 1);
+      if (k == i - 1) variance += std::pow(hole * (after - before), 2) / 12;
     }
     last = i;
   }
-  return true;
+  return variance;
 }
 
 }  // namespace
@@ -146,7 +150,8 @@ Estimate head_area_loss(const PlacedSection& placed) {
   }
   for (Sector& sector : sectors)
     if (sector.differences.size() >= 1) sector.value = median_of(sector.differences);
-  if (!fill_holes(sectors)) return Estimate::unknown("head not seen all round");
+  const auto bridged = bridge_holes(sectors);
+  if (!bridged) return Estimate::unknown("head not seen all round");
   double area = 0;
   for (const Sector& sector : sectors) area += *sector.value * width;
   // A shift up by one sigma adds the head's width times it; sideways and turned it nearly cancels.
@@ -154,7 +159,7 @@ Estimate head_area_loss(const PlacedSection& placed) {
   const double noise =
       placed.registration.rms_mm * *face *
       std::sqrt(width * placed.registration.correlated_points * (std::numbers::pi - 2 * lowest));
-  return Estimate::known(area, std::hypot(place, noise));
+  return Estimate::known(area, std::hypot(place, noise, width * std::sqrt(*bridged)));
 }
 
 Estimate find_lip(const PlacedSection& placed, int side, double lip_mm) {

@@ -23,7 +23,7 @@ SurfaceFit fit_head_face(const PlacedSection& placed, const Eigen::Vector2d& ori
                          const Eigen::Vector2d& outwards);
 
 /// Area between reference and measured head above the lower ends of the head's faces, mm2, by polar sectors
-/// about a point inside the head. Unknown where the section has a hole of more than two sectors.
+/// about a point inside the head. Unknown where the section has a hole of more than eight sectors of 1 deg.
 Estimate head_area_loss(const PlacedSection& placed);
 
 /// Farthest that metal stands out of the reference's face on this side (+1: u > 0), between the running
