@@ -166,7 +166,8 @@ MeasureOutcome measure_profiles(const MeasureArguments& arguments) {
   const MeasureOptions options = options_of(arguments);
   const Limits limits = limits_of(arguments);
   MeasureInput input = read_measure_input(arguments.profiles, arguments.kind);
-  if (!arguments.rig.empty()) input.wheel.axis_sigma_mm = axis_sigma(arguments.rig);
+  if (!arguments.rig.empty() && arguments.kind == ObjectKind::kWheel)
+    input.wheel.axis_sigma_mm = axis_sigma(arguments.rig);
   const MeasureReferences references(arguments, input, options);
   MeasureOutcome outcome;
   outcome.extra_columns = references.extra_columns();
