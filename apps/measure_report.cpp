@@ -20,8 +20,9 @@ namespace {
 constexpr std::size_t kWorst = 15;  // places in the table
 
 constexpr const char* kStyle =
-    "body{font:14px/1.45 sans-serif;max-width:1180px;margin:24px auto;padding:0 16px;color:#222}"
-    "table{border-collapse:collapse;margin:8px 0}td,th{padding:3px 10px;border-bottom:1px solid "
+    "body{font:14px/1.45 sans-serif;max-width:1280px;margin:24px auto;padding:0 16px;color:#222}"
+    "table{border-collapse:collapse;margin:8px 0}td,th{padding:3px 7px;white-space:nowrap;border-bottom:1px "
+    "solid "
     "#ddd;text-align:right}"
     "td:first-child,th:first-child{text-align:left}.fail{color:#c8401f;font-weight:bold}.strip{display:flex;"
     "flex-wrap:wrap;gap:12px}"
@@ -122,7 +123,7 @@ std::string track_chart(const MeasureReport& report, const std::string& name) {
   std::string svg = fmt::format("<h3>{}</h3><svg width=\"{}\" height=\"{}\">", name, kWidth, kHeight);
   svg += fmt::format("<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"#fafafa\" stroke=\"#ccc\"/>",
                      kLeft, kTop, kWidth - kLeft - 10, kHeight - kTop - kBottom);
-  for (const double value : {low + margin, high - margin})
+  for (const double value : {low, high})
     svg += fmt::format("<text x=\"{}\" y=\"{:.1f}\" text-anchor=\"end\">{:.3f}</text>", kLeft - 4,
                        y(value) + 4, value);
   svg += fmt::format(
@@ -250,7 +251,9 @@ std::string measure_report_html(const MeasureReport& report) {
   html += "<h2>Summary</h2>" + summary_table(report) +
           "<p>Lengths in mm, angles in degrees, areas in mm&sup2;.</p>";
   html += "<h2>Worst places first</h2>" + worst_table(report, order, links);
-  html += "<h2>Along the track</h2><p>Dots: measured; bars: one predicted sigma; red: limits.</p>";
+  html +=
+      "<h2>Along the scan</h2><p>Travel in mm, of a turning wheel in degrees. Dots: measured; bars: one "
+      "predicted sigma; red: limits.</p>";
   for (const std::string& name : quantities(report)) html += track_chart(report, name);
   html +=
       "<h2>Sections</h2><p>Grey: the reference; black: measured; lines on the outline: the difference, "
