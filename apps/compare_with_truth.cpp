@@ -175,25 +175,30 @@ CloudError compare_cloud(const std::vector<Profile>& profiles, const Rig& rig, c
   return error;
 }
 
-WearError compare_wear(const std::vector<MeasuredFrame>& rows, const std::filesystem::path& truth) {
-  std::map<std::int64_t, std::array<double, 2>> wear;
-  CsvReader csv(truth / "wear.csv", {"frame", "vertical_wear", "side_wear"});
-  while (csv.next()) wear[csv.integer(0)] = {csv.number(1), csv.number(2)};
-  WearError error;
-  const auto add = [](const Estimate* measured, double true_mm, double& sum, int& frames) {
-    if (!measured || !measured->value) return;
-    sum += (*measured->value - true_mm) * (*measured->value - true_mm);
-    ++frames;
-  };
-  for (const auto& row : rows) {
-    const auto found = wear.find(row.frame);
-    if (found == wear.end()) continue;
-    add(find_estimate(row, "vertical_wear"), found->second[0], error.vertical_rms_mm, error.vertical_frames);
-    add(find_estimate(row, "side_wear"), found->second[1], error.side_rms_mm, error.side_frames);
+std::vector<QuantityError> compare_wear(const std::vector<MeasuredFrame>& rows, ObjectKind kind,
+                                        const fs::path& truth) {
+  std::vector<std::string_view> names{"vertical_wear", "side_wear"};
+  if (kind == ObjectKind::kWheel) names = {"flange_height", "flange_thickness", "qr", "diameter"};
+  std::map<std::int64_t, const MeasuredFrame*> measured;
+  for (const MeasuredFrame& row : rows) measured[row.frame] = &row;
+  std::vector<QuantityError> errors;
+  for (const std::string_view name : names) {
+    QuantityError error{std::string(name), 0, 0, 0, 0};
+    CsvReader csv(truth / "wear.csv", {"frame", name});
+    while (csv.next()) {
+      const auto row = measured.find(csv.integer(0));
+      const Estimate* const estimate =
+          row == measured.end() ? nullptr : find_estimate(*row->second, error.name);
+      if (!estimate || !estimate->value) continue;
+      const double difference = *estimate->value - csv.number(1);
+      error.rms_mm += difference * difference, error.mean_mm += difference, ++error.frames;
+      error.worst_mm = std::max(error.worst_mm, std::abs(difference));
+    }
+    if (error.frames == 0) continue;
+    error.rms_mm = std::sqrt(error.rms_mm / error.frames), error.mean_mm /= error.frames;
+    errors.push_back(error);
   }
-  error.vertical_rms_mm = std::sqrt(error.vertical_rms_mm / std::max(1, error.vertical_frames));
-  error.side_rms_mm = std::sqrt(error.side_rms_mm / std::max(1, error.side_frames));
-  return error;
+  return errors;
 }
 
 }  // namespace lightstripe

@@ -44,13 +44,16 @@ struct CloudError {
 CloudError compare_cloud(const std::vector<Profile>& profiles, const Rig& rig,
                          const std::filesystem::path& truth);
 
-/// Of the wear measured on a rail, over the frames in which it is known.
-struct WearError {
-  double vertical_rms_mm = 0, side_rms_mm = 0;
-  int vertical_frames = 0, side_frames = 0;
+/// Of one measured quantity, over the frames in which it is known.
+struct QuantityError {
+  std::string name;
+  double rms_mm = 0, worst_mm = 0, mean_mm = 0;
+  int frames = 0;
 };
 
-/// Compares with the wear.csv of a rail's truth.
-WearError compare_wear(const std::vector<MeasuredFrame>& rows, const std::filesystem::path& truth);
+/// Compares with the wear.csv of the truth: a rail's vertical and side wear; a wheel's flange height, flange
+/// thickness, qR and diameter. Quantities that no frame knows are left out.
+std::vector<QuantityError> compare_wear(const std::vector<MeasuredFrame>& rows, ObjectKind kind,
+                                        const std::filesystem::path& truth);
 
 }  // namespace lightstripe

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
-#include <optional>
 
 #include "apps/calibrate.h"
 #include "apps/command.h"
@@ -48,11 +48,20 @@ void write_overview(const std::vector<RgbPicture>& overlays, const std::vector<P
   write_rgb_image(file, overview.pixels, overview.width, overview.height);
 }
 
-std::string accuracy_table(const RigError& rig, const CloudError& cloud, const std::optional<WearError>& wear,
-                           bool wheel) {
+std::string accuracy_table(const RigError& rig, const CloudError& cloud,
+                           const std::vector<QuantityError>& wear, bool wheel) {
   std::string table;
   const auto row = [&](const std::string& what, const std::string& value) {
     table += fmt::format("| {:<58} | {:>12} |\n", what, value);
+  };
+  const auto row_of = [&](const QuantityError& one) {
+    std::string name = one.name;
+    std::replace(name.begin(), name.end(), '_', ' ');
+    // A wheel that runs out of true has another diameter in each section, its truth is the mean's.
+    if (one.name == "diameter")
+      row("diameter, mean of the turn", fmt::format("{:.3f} mm", std::abs(one.mean_mm)));
+    else
+      row(fmt::format("{} of {} sections, rms", name, one.frames), fmt::format("{:.4f} mm", one.rms_mm));
   };
   row("result against the known truth", "error");
   table += fmt::format("|{:-<60}|{:->13}:|\n", "", "");
@@ -69,28 +78,27 @@ std::string accuracy_table(const RigError& rig, const CloudError& cloud, const s
   row("sections, place as well, rms", fmt::format("{:.3f} mm", cloud.absolute_rms_mm));
   row("points more than 1 mm off", fmt::format("{:.3f} %", 100 * cloud.far_fraction));
   row("visible lit stripe recovered", fmt::format("{:.1f} %", 100 * cloud.recovered_fraction));
-  if (wear && wear->vertical_frames > 0)
-    row(fmt::format("vertical wear of {} sections, rms", wear->vertical_frames),
-        fmt::format("{:.4f} mm", wear->vertical_rms_mm));
-  if (wear && wear->side_frames > 0)
-    row(fmt::format("side wear of {} sections, rms", wear->side_frames),
-        fmt::format("{:.4f} mm", wear->side_rms_mm));
+  for (const QuantityError& one : wear) row_of(one);
   table.pop_back();
   return table;
 }
 
-/// Nothing where the scene is no rail, or none of its sections could be measured.
-std::optional<WearError> measure_wear(const Scene& scene, const fs::path& folder, const fs::path& truth,
-                                      const CommonOptions& quiet) {
-  if (scene.turns() || !fs::exists(truth / "wear.csv")) return std::nullopt;
+/// Empty where the scene has neither rail nor wheel, or none of its sections could be measured.
+std::vector<QuantityError> measure_wear(const Scene& scene, const SimulationSummary& simulated,
+                                        const fs::path& folder, const CommonOptions& quiet) {
+  if (!fs::exists(simulated.truth / "wear.csv")) return {};
   MeasureArguments arguments;
   arguments.common = quiet;
   arguments.common.output = (folder / "measurements.csv").string();
   arguments.profiles = (folder / "profiles.csv").string();
-  arguments.kind = ObjectKind::kRail;
+  arguments.kind = scene.turns() ? ObjectKind::kWheel : ObjectKind::kRail;
+  arguments.nominal = scene.turns() ? scene.wheel.profile : scene.rail.profile;
+  arguments.rig = (folder / "rig.yaml").string();
+  arguments.scan = simulated.scan.string();
+  arguments.report = (folder / "measure.html").string();
   const MeasureOutcome outcome = measure_profiles(arguments);
-  if (outcome.num_ok == 0) return std::nullopt;
-  return compare_wear(outcome.rows, truth);
+  if (outcome.num_ok == 0) return {};
+  return compare_wear(outcome.rows, arguments.kind, simulated.truth);
 }
 
 int run_demo(const std::string& scene_file, bool wheel, const CommonOptions& common) {
@@ -126,7 +134,7 @@ int run_demo(const std::string& scene_file, bool wheel, const CommonOptions& com
                  folder / "overview.png");
 
   say(common, "4/4 measuring the sections\n");
-  const std::optional<WearError> wear = measure_wear(scene, folder, simulated.truth, stage);
+  const std::vector<QuantityError> wear = measure_wear(scene, simulated, folder, stage);
 
   const Rig rig = read_rig(folder / "rig.yaml");
   const RigError rig_error = compare_rigs(rig, read_rig(simulated.truth / "rig.yaml"));
@@ -137,11 +145,14 @@ int run_demo(const std::string& scene_file, bool wheel, const CommonOptions& com
           "\n{} points from {} frames of {} sensors, {:.0f} frames/s with {} threads (PNG decoding included)",
           outcome.summary.points, outcome.summary.frames, rig.sensors.size(),
           static_cast<double>(outcome.summary.frames) / outcome.seconds, thread_count(common)));
-  say(common, fmt::format("\ncloud      {0}/cloud.ply (picture: {0}/cloud.png)\nsections   {0}/profiles.csv\n"
-                          "{1}overlays   {0}/overlay/*.png\nrig        {0}/rig.yaml (report: {0}/calibration.html)\n"
-                          "truth      {0}/truth/",
-                          folder.string(),
-                          wear ? "measured   " + (folder / "measurements.csv").string() + "\n" : ""));
+  say(common,
+      fmt::format("\ncloud      {0}/cloud.ply (picture: {0}/cloud.png)\nsections   {0}/profiles.csv\n"
+                  "{1}overlays   {0}/overlay/*.png\nrig        {0}/rig.yaml (report: {0}/calibration.html)\n"
+                  "truth      {0}/truth/",
+                  folder.string(),
+                  wear.empty() ? ""
+                               : fmt::format("measured   {0}/measurements.csv (report: {0}/measure.html)\n",
+                                             folder.string())));
   return kExitDone;
 }
 

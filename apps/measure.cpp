@@ -10,7 +10,9 @@
 #include <map>
 #include <sstream>
 
+#include "apps/frame_links.h"
 #include "apps/measure_input.h"
+#include "apps/measure_references.h"
 #include "apps/measure_report.h"
 #include "apps/measurement_table.h"
 #include "apps/run_record.h"
@@ -37,21 +39,6 @@ MeasureOptions options_of(const MeasureArguments& arguments) {
   apply_overrides(options.registration, arguments.registration);
   if (arguments.max_overlap_gap_mm) options.max_overlap_gap_mm = *arguments.max_overlap_gap_mm;
   return options;
-}
-
-ReferenceShape reference_of(const MeasureArguments& arguments, const MeasureInput& input,
-                            const MeasureOptions& options) {
-  if (arguments.nominal != "auto") return read_reference(arguments.nominal, arguments.kind);
-  if (arguments.kind == ObjectKind::kWheel)
-    throw Error("--nominal auto", "tells rails apart, not wheels", "name the wheel's outline");
-  const IdentifiedRail found = identify_rail(input.profiles, options.registration);
-  say(arguments.common, "rail: " + found.name);
-  if (!found.also.empty())
-    warn(
-        fmt::format("{} cannot be told from {}: they differ in the head only, which wears; name the right "
-                    "one with --nominal",
-                    found.name, fmt::join(found.also, ", ")));
-  return read_reference(found.name, arguments.kind);
 }
 
 /// How well the rig knows the distance from its axis: the larger of the axis point's sigmas, nothing if the
@@ -105,7 +92,7 @@ void export_sections(const MeasureArguments& arguments, const MeasureInput& inpu
 }
 
 void write_plots(const MeasureArguments& arguments, const MeasureInput& input, const MeasureOutcome& outcome,
-                 const ReferenceShape& reference) {
+                 const MeasureReferences& references) {
   if (!arguments.export_folder.empty()) export_sections(arguments, input, outcome);
   for (const std::int64_t frame : arguments.plot) {
     const auto row = std::find_if(outcome.rows.begin(), outcome.rows.end(),
@@ -114,12 +101,23 @@ void write_plots(const MeasureArguments& arguments, const MeasureInput& input, c
       throw Error(fmt::format("--plot {}", frame), "the sections have no such frame",
                   "give the number of a frame in the table");
     const auto& profile = input.profiles[static_cast<std::size_t>(row - outcome.rows.begin())];
-    const RgbPicture picture = section_picture(draw_section(profile, *row, reference), *row);
+    const RgbPicture picture =
+        section_picture(draw_section(profile, row->registration, references.at(row->travel)), *row);
     const fs::path path = fs::path(output_of(arguments)).replace_extension() +=
         fmt::format("_{:06}.png", frame);
     write_rgb_image(path, picture.pixels, picture.width, picture.height);
     say(arguments.common, "frame " + std::to_string(frame) + " -> " + path.string());
   }
+}
+
+void say_run_out(const CommonOptions& common, const RunOut& run_out) {
+  const auto line = [&](const char* what, const Estimate& estimate) {
+    if (estimate.value)
+      say(common, fmt::format("{} run-out {:.3f} mm, sigma {:.3f}", what, *estimate.value,
+                              estimate.sigma.value_or(0)));
+  };
+  line("radial", run_out.radial);
+  line("axial", run_out.axial);
 }
 
 void summarise(const MeasureArguments& arguments, const MeasureOutcome& outcome) {
@@ -131,14 +129,14 @@ void summarise(const MeasureArguments& arguments, const MeasureOutcome& outcome)
     say(common, fmt::format("{:<18} {:>6} {:>10.3f} {:>10.3f} {:>10.3f}", name, spread.known, spread.low,
                             spread.mean, spread.high));
   }
-  const Spread gap = spread_of(outcome.rows, "overlap_gap");
-  if (gap.known > 0)
-    say(common, fmt::format("{:<18} {:>6} {:>10.3f} {:>10.3f} {:>10.3f}", "overlap_gap", gap.known, gap.low,
-                            gap.mean, gap.high));
+  for (const char* const name : {"overlap_gap", "gauge"}) {
+    const Spread spread = spread_of(outcome.rows, name);
+    if (spread.known > 0)
+      say(common, fmt::format("{:<18} {:>6} {:>10.3f} {:>10.3f} {:>10.3f}", name, spread.known, spread.low,
+                              spread.mean, spread.high));
+  }
+  if (outcome.run_out) say_run_out(common, *outcome.run_out);
   const Spread diameter = spread_of(outcome.rows, "diameter");
-  if (diameter.known > 1)
-    say(common, fmt::format("radial run-out {:.3f} mm between the lowest and the highest of these frames",
-                            (diameter.high - diameter.low) / 2));
   if (diameter.known > 0 && !arguments.rig.empty())
     say(common,
         "the diameter's sigma is twice that of the axis' place in the rig's calibration: a board seen over a "
@@ -168,24 +166,26 @@ MeasureOutcome measure_profiles(const MeasureArguments& arguments) {
   const MeasureOptions options = options_of(arguments);
   const Limits limits = limits_of(arguments);
   MeasureInput input = read_measure_input(arguments.profiles, arguments.kind);
-  if (!arguments.rig.empty()) input.wheel.axis_sigma_mm = axis_sigma(arguments.rig);
-  const ReferenceShape reference = reference_of(arguments, input, options);
-  const MeasuredObject object{reference, input.prior, input.wheel};
+  if (!arguments.rig.empty() && arguments.kind == ObjectKind::kWheel)
+    input.wheel.axis_sigma_mm = axis_sigma(arguments.rig);
+  const MeasureReferences references(arguments, input, options);
   MeasureOutcome outcome;
+  outcome.extra_columns = references.extra_columns();
   outcome.rows.resize(input.profiles.size());
   oneapi::tbb::parallel_for(std::size_t{0}, input.profiles.size(), [&](std::size_t i) {
-    outcome.rows[i] = measure_profile(input.profiles[i], object, options);
+    outcome.rows[i] = references.measure(input.profiles[i], input, options);
   });
+  if (arguments.kind == ObjectKind::kWheel) outcome.run_out = find_run_out(outcome.rows);
   for (const MeasuredFrame& row : outcome.rows) {
     outcome.verdicts.push_back(verdict_name(judge(row, limits)));
     outcome.num_ok += row.status == "ok" ? 1 : 0;
   }
-  write_file(output_of(arguments), measurement_table(outcome.rows, arguments.kind, outcome.verdicts));
-  write_plots(arguments, input, outcome, reference);
+  write_file(output_of(arguments),
+             measurement_table(outcome.rows, arguments.kind, outcome.extra_columns, outcome.verdicts));
+  write_plots(arguments, input, outcome, references);
   if (!arguments.report.empty())
-    write_file(arguments.report,
-               measure_report_html({input.profiles, outcome.rows, outcome.verdicts, reference, limits,
-                                    options.max_overlap_gap_mm, arguments.profiles}));
+    write_file(arguments.report, measure_report_html({arguments, input.profiles, outcome, references, limits,
+                                                      options.max_overlap_gap_mm}));
   write_run_record(output_of(arguments), "measure", {arguments.profiles},
                    effective_options(arguments, options, limits));
   return outcome;
@@ -205,6 +205,17 @@ void add_measure_command(CLI::App& app, Command& run) {
   command->add_option(
       "--nominal", arguments->nominal,
       "the new rail or wheel: a name, an outline file, a recorded profile (baseline), or auto [60E1, S1002]");
+  command->add_option(
+      "--baseline", arguments->baseline,
+      "an earlier measurement (profiles.csv, .ban, .whl ...) as reference; --nominal guides it");
+  const std::map<std::string, bool> rails{{"one", false}, {"two", true}};
+  command
+      ->add_option("--rails", arguments->two_rails,
+                   "one or two: sensors over both rails of a track; measures the gauge between them [one]")
+      ->transform(CLI::CheckedTransformer(rails));
+  command->add_option("--nominal-right", arguments->nominal_right,
+                      "with --rails two: the new rail at -y [as --nominal]");
+  command->add_option("--scan", arguments->scan, "scan file: the report links to its pictures");
   command->add_option("--limits", arguments->limits, "file of limits (YAML)");
   command->add_option("--report", arguments->report, "report to look at (HTML)");
   command->add_option("--plot", arguments->plot,

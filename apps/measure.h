@@ -9,6 +9,7 @@
 
 #include "apps/command.h"
 #include "measure/limits.h"
+#include "measure/run_out.h"
 
 namespace lightstripe {
 
@@ -16,9 +17,13 @@ struct MeasureArguments {
   CommonOptions common;
   std::string profiles;  ///< profiles.csv, or a file of the railway world
   ObjectKind kind = ObjectKind::kRail;
-  std::string nominal;  ///< empty: 60E1 or S1002; auto: the rail that fits
-  std::string limits;   ///< YAML; empty: none
-  std::string report;   ///< empty: not written
+  std::string nominal;        ///< empty: 60E1 or S1002; auto: the rail that fits
+  std::string baseline;       ///< an earlier measurement as reference; empty: the nominal outline itself
+  bool two_rails = false;     ///< each section shows both rails of a track
+  std::string nominal_right;  ///< of the rail at -y; empty: as the other
+  std::string scan;           ///< the report links to its pictures; empty: no links
+  std::string limits;         ///< YAML; empty: none
+  std::string report;         ///< empty: not written
   std::vector<std::int64_t> plot;
   std::string export_folder, export_format = "miniprof";
   std::string rig;  ///< empty: the diameter gets no sigma
@@ -29,6 +34,8 @@ struct MeasureArguments {
 struct MeasureOutcome {
   std::vector<MeasuredFrame> rows;
   std::vector<std::string> verdicts;
+  std::vector<std::string> extra_columns;  ///< names of the rows' extras
+  std::optional<RunOut> run_out;           ///< of a wheel
   int num_ok = 0;
 };
 

@@ -6,20 +6,21 @@
 #include <string>
 #include <vector>
 
+#include "apps/measure_references.h"
 #include "measure/limits.h"
 
 namespace lightstripe {
 
 struct MeasureReport {
+  const MeasureArguments& arguments;
   const std::vector<Profile>& profiles;
-  const std::vector<MeasuredFrame>& rows;
-  const std::vector<std::string>& verdicts;
-  const ReferenceShape& reference;
+  const MeasureOutcome& outcome;
+  const MeasureReferences& references;
   const Limits& limits;
   double max_overlap_gap_mm = 0;
-  std::string source;  ///< the input's name
 };
 
+/// Where the arguments name a scan, its pictures are linked to, as seen from the report's place.
 std::string measure_report_html(const MeasureReport& report);
 
 }  // namespace lightstripe

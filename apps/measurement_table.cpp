@@ -46,11 +46,12 @@ std::string missing_of(const MeasuredFrame& row) {
 }
 
 std::string measurement_table(const std::vector<MeasuredFrame>& rows, ObjectKind kind,
+                              const std::vector<std::string>& extras,
                               const std::vector<std::string>& verdicts) {
   std::string out = "frame,travel,nominal";
   for (const std::string& name : estimate_names(kind)) out += ',' + name + ',' + name + "_sigma";
   out += ",fit_rms,fit_points,status";
-  for (const std::string& name : extra_names(kind)) out += ',' + name + ',' + name + "_sigma";
+  for (const std::string& name : extras) out += ',' + name + ',' + name + "_sigma";
   out += ",verdict,missing\n";
   for (std::size_t i = 0; i < rows.size(); ++i) append_row(out, rows[i], verdicts[i]);
   return out;

@@ -13,6 +13,7 @@ namespace lightstripe {
 /// frame,travel,nominal, each quantity and its _sigma, fit_rms,fit_points,status, then what was added later:
 /// extras with their _sigma, verdict, missing (which cells are empty and why).
 std::string measurement_table(const std::vector<MeasuredFrame>& rows, ObjectKind kind,
+                              const std::vector<std::string>& extras,
                               const std::vector<std::string>& verdicts);
 
 /// "side_wear: gauge face not seen | head_width: ..."; empty where all is known.

@@ -60,16 +60,16 @@ std::string path_of(const std::vector<Vector2d>& line) {
 
 }  // namespace
 
-SectionDrawing draw_section(const Profile& profile, const MeasuredFrame& row,
+SectionDrawing draw_section(const Profile& profile, const Registration& registration,
                             const ReferenceShape& reference) {
   SectionDrawing drawing;
   frame_view(reference.kind(), drawing);
   add_reference(reference, drawing);
-  if (row.registration.view == RegistrationView::kNone) return drawing;
+  if (registration.view == RegistrationView::kNone) return drawing;
   std::vector<double> sizes;
   std::vector<PolylineFoot> feet;
   for (const ProfilePoint& point : profile.points) {
-    const Vector2d p = row.registration.reference_from_section * Vector2d(point.u, point.v);
+    const Vector2d p = registration.reference_from_section * Vector2d(point.u, point.v);
     drawing.points.push_back(p);
     if (const auto foot = reference.nearest(p); foot && !foot->beyond_end)
       feet.push_back(*foot), sizes.push_back(std::abs(foot->signed_distance));

@@ -25,7 +25,7 @@ struct SectionDrawing {
 };
 
 /// Empty points where the section is not registered.
-SectionDrawing draw_section(const Profile& profile, const MeasuredFrame& row,
+SectionDrawing draw_section(const Profile& profile, const Registration& registration,
                             const ReferenceShape& reference);
 
 /// As an <svg> element of this width.

@@ -6,7 +6,8 @@
 //   reconstruct_speed RIG.yaml SENSOR FRAMES.png... [--threads N] [--repeat N]
 //
 // The whole way is timed: read, decode, extract, triangulate, write a cloud. Each figure is the median of the
-// repeats, which take turns, so that a busy machine disturbs all alike.
+// repeats, which take turns, so that a busy machine disturbs all alike. The cpu columns are of user and
+// system time of all threads, and what four undisturbed cores would do at that.
 #include <fmt/format.h>
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
@@ -14,6 +15,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <opencv2/core.hpp>
@@ -38,11 +40,19 @@ struct Arguments {
   std::vector<std::string> files;
 };
 
+/// Of one run over all pictures. `cpu`: user and system, all threads; it does not feel what else the machine
+/// does.
+struct Seconds {
+  double wall = 0, cpu = 0;
+};
+
 template <class Work>
-double seconds_of(const Work& work) {
+Seconds seconds_of(const Work& work) {
   const auto start = std::chrono::steady_clock::now();
+  const std::clock_t cpu_start = std::clock();
   work();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return {std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(),
+          static_cast<double>(std::clock() - cpu_start) / CLOCKS_PER_SEC};
 }
 
 void imread_all(const std::vector<std::string>& files, int threads) {
@@ -94,6 +104,12 @@ double median(std::vector<double> values) {
   return values[values.size() / 2];
 }
 
+Seconds median(const std::vector<Seconds>& runs) {
+  std::vector<double> wall, cpu;
+  for (const Seconds& run : runs) wall.push_back(run.wall), cpu.push_back(run.cpu);
+  return {median(std::move(wall)), median(std::move(cpu))};
+}
+
 int run(const Arguments& arguments) {
   const fs::path folder =
       fs::temp_directory_path() /
@@ -101,7 +117,7 @@ int run(const Arguments& arguments) {
   fs::create_directories(folder);
   const auto pgm = as_pgm(arguments.files, folder);
   const fs::path from_png = folder / "png.ply", from_pgm = folder / "pgm.ply";
-  std::vector<double> imread_png, imread_pgm, png, raw;
+  std::vector<Seconds> imread_png, imread_pgm, png, raw;
   std::int64_t points = 0;
   for (int i = 0; i < arguments.repeat; ++i) {
     imread_png.push_back(seconds_of([&] { imread_all(arguments.files, arguments.threads); }));
@@ -119,10 +135,13 @@ int run(const Arguments& arguments) {
   const auto n = static_cast<double>(arguments.files.size());
   fmt::print("{} frames, {} points, {} threads, median of {}\n", arguments.files.size(), points,
              arguments.threads, arguments.repeat);
-  fmt::print("{:<24}{:>12}{:>12}{:>12}\n", "", "ms/frame", "frames/s", "ratio");
-  const auto row = [n](const char* what, double seconds, double reference) {
-    fmt::print("{:<24}{:>12.3f}{:>12.1f}{:>12.2f}\n", what, 1000 * seconds / n, n / seconds,
-               seconds / reference);
+  constexpr int kCores = 4;
+  fmt::print("{:<24}{:>12}{:>12}{:>12}{:>14}{:>16}{:>12}\n", "", "ms/frame", "frames/s", "ratio",
+             "cpu ms/frame", fmt::format("frames/s, {} cpu", kCores), "cpu ratio");
+  const auto row = [n](const char* what, const Seconds& seconds, const Seconds& reference) {
+    fmt::print("{:<24}{:>12.3f}{:>12.1f}{:>12.2f}{:>14.3f}{:>16.0f}{:>12.2f}\n", what,
+               1000 * seconds.wall / n, n / seconds.wall, seconds.wall / reference.wall,
+               1000 * seconds.cpu / n, kCores * n / seconds.cpu, seconds.cpu / reference.cpu);
   };
   row("cv::imread PNG", median(imread_png), median(imread_png));
   row("reconstruct from PNG", median(png), median(imread_png));

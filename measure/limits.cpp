@@ -21,11 +21,13 @@ std::string verdict_name(Verdict verdict) {
 }
 
 Bounds bounds_of(const std::string& quantity, const Limits& limits) {
+  const std::string_view right = "right_";
+  const std::string name = quantity.starts_with(right) ? quantity.substr(right.size()) : quantity;
   Bounds bounds;
   visit_fields(
       [&](std::string_view key, const std::optional<double>& limit) {
-        if (key == quantity + "_min") bounds.low = limit;
-        if (key == quantity + "_max") bounds.high = limit;
+        if (key == name + "_min") bounds.low = limit;
+        if (key == name + "_max") bounds.high = limit;
       },
       limits);
   return bounds;

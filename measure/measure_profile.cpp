@@ -54,6 +54,8 @@ MeasuredFrame measure_profile(const Profile& profile, const MeasuredObject& obje
     WheelMeasurement wheel =
         measure_wheel(section, object.reference, row.registration, object.wheel, options.wheel);
     visit_estimates([&](const char* name, const Estimate& e) { row.estimates.push_back({name, e}); }, wheel);
+    row.extras.push_back({"radial_deviation", wheel.radius});
+    row.extras.push_back({"axial_deviation", wheel.back_place});
   }
   row.status = status_of(row, options);
   return row;
@@ -71,7 +73,7 @@ std::vector<std::string> estimate_names(ObjectKind kind) {
 
 std::vector<std::string> extra_names(ObjectKind kind) {
   if (kind == ObjectKind::kRail) return {"crown_radius", "lip", "overlap_gap"};
-  return {};
+  return {"radial_deviation", "axial_deviation"};
 }
 
 }  // namespace lightstripe

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,7 +34,8 @@ struct MeasuredFrame {
   std::vector<NamedEstimate> estimates;  ///< the table's columns, in order
   std::vector<NamedEstimate> extras;     ///< behind `status`
   Registration registration;
-  std::string status;  ///< "ok" or why not
+  std::optional<Registration> right_registration;  ///< of the other rail, see measure_track()
+  std::string status;                              ///< "ok" or why not
 };
 
 /// What all frames of a run have in common.

@@ -35,19 +35,8 @@ Estimate corner_wear(const PlacedSection& placed, int side) {
   return wear_of(fit_surface(placed, {corner, outwards, -2, 2, 16, 2}), placed.registration, "gauge corner");
 }
 
-/// A head face at a height. At the gauge point the stripe begins to bend into the corner, and sharp bends are
-/// seen a hundredth of a millimetre too far inside; so the straight face below is carried up, unless what is
-/// seen at the height itself contradicts it.
 SurfaceFit fit_face(const PlacedSection& placed, int side, double v) {
-  constexpr double kLowestMm = 8.5, kHighestMm = 1.5, kReachMm = 60, kStraightMm = 0.02, kAgreesMm = 0.03;
-  const Vector2d outwards(side, 0);
-  const SurfaceFit here = fit_surface(placed, {{0, v}, outwards, -1.5, 1.5, kReachMm, 2});
-  SurfaceProbe below{{0, v}, outwards, -kLowestMm, -kHighestMm, kReachMm, 1, true};
-  if (side < 0) below.from_mm = kHighestMm, below.to_mm = kLowestMm;
-  const SurfaceFit carried = fit_surface(placed, below);
-  const bool agrees = here.known() && carried.known() && carried.rms_mm < kStraightMm &&
-                      std::abs(carried.wear_mm - here.wear_mm) < kAgreesMm;
-  return agrees ? carried : here;
+  return fit_head_face(placed, {0, v}, {side, 0});
 }
 
 Estimate width_of(const PlacedSection& placed, double depth_v) {

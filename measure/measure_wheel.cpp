@@ -69,7 +69,7 @@ struct Tip {
 };
 
 /// A parabola over the highest 3 mm of the flange: narrow, since a worn tip may have an edge.
-Tip find_tip(const PlacedSection& placed) {
+Tip find_tip_itself(const PlacedSection& placed) {
   constexpr double kFlangeU = -42, kHalfWidthMm = 1.6, kAboveDatumMm = 15;
   const Vector2d* highest = nullptr;
   for (const Vector2d& p : placed.points)
@@ -96,9 +96,38 @@ Tip find_tip(const PlacedSection& placed) {
   return tip;
 }
 
-/// u of the flange's face towards the tread at a height.
-Place face_at(const PlacedSection& placed, double v, double half_height_mm, double tip_u,
-              const std::string& what) {
+/// Whether the section has points about a place that lie well inside their stripes.
+bool well_seen(const PlacedSection& placed, const Vector2d& place) {
+  constexpr double kAboutMm = 1.6, kGood = 0.5;
+  return std::any_of(placed.points.begin(), placed.points.end(), [&](const Vector2d& p) {
+    return (p - place).norm() < kAboutMm && weight_of(placed, p) > kGood;
+  });
+}
+
+/// Where the stripes of the sensors on either side of the tip end near it, both see it too low. Then the
+/// wider surroundings tell where it is, by their difference to the reference, unless the tip's own shape
+/// contradicts them.
+Tip find_tip(const PlacedSection& placed) {
+  constexpr double kHalfWidthMm = 5, kSmoothMm = 0.03, kAgreesMm = 0.05, kDerivativeMm = 0.5;
+  const Tip itself = find_tip_itself(placed);
+  const Vector2d top(placed.reference.top_u(), 0), up(0, 1);
+  const SurfaceFit around = fit_surface(placed, {top, up, -kHalfWidthMm, kHalfWidthMm, 60, 2});
+  const auto before = placed.reference.surface_along(top, up, kDerivativeMm);
+  const auto after = placed.reference.surface_along(top, up, -kDerivativeMm);
+  if (!itself.height.known() || well_seen(placed, {itself.u, itself.height.value})) return itself;
+  if (!around.known() || around.rms_mm > kSmoothMm || !before || !after) return itself;
+  const double curvature =
+      (*before + *after - 2 * placed.reference.top_v()) / (kDerivativeMm * kDerivativeMm);
+  if (curvature >= 0) return itself;
+  const double vertex = -around.slope / curvature;  // across: towards the wheel's back
+  const double height = around.along_mm + around.slope * vertex / 2;
+  if (std::abs(height - itself.height.value) > kAgreesMm) return itself;
+  return {{"", height, around.local_sigma_mm}, top.x() - vertex};
+}
+
+/// u of the flange's face towards the tread at a height, of the points next to it.
+Place face_itself(const PlacedSection& placed, double v, double half_height_mm, double tip_u,
+                  const std::string& what) {
   constexpr double kWidestMm = 30;
   std::vector<Sample1> samples;
   bool above = false, below = false;
@@ -110,6 +139,16 @@ Place face_at(const PlacedSection& placed, double v, double half_height_mm, doub
   if (!above || !below) return {what + " not seen", 0, 0};
   const int degree = samples.size() >= 6 ? 2 : 1;
   return place_from(fit_polynomial(samples, degree, kMinScaleMm), tip_u, placed.registration, what);
+}
+
+/// The same at the height of a place, whose error shifts it along the face.
+Place face_at(const PlacedSection& placed, const Place& height, double over_mm, double half_height_mm,
+              double tip_u, const std::string& what) {
+  const double v = height.value + over_mm;
+  Place face = face_itself(placed, v, half_height_mm, tip_u, what);
+  const SurfaceFit around = fit_surface(placed, {{tip_u, v}, {1, 0}, -2, 1, 30, 2});
+  if (around.known()) face.sigma = std::hypot(face.sigma, around.slope * height.sigma);
+  return face;
 }
 
 Estimate difference(const Place& a, const Place& b) {
@@ -164,6 +203,17 @@ Estimate diameter_of(const Place& tread, const Registration& registration, const
   return out;
 }
 
+/// Where the wheel stands about its axis, for its run-out.
+void add_places(const Place& tread, const Place& back, const Registration& registration,
+                const WheelSectionKind& kind, WheelMeasurement& out) {
+  out.radius = out.back_place = Estimate::unknown("v is no radius: not a rotary scan");
+  if (!kind.radial) return;
+  const Vector2d& shift = registration.reference_from_section.move.translation;
+  out.back_place = Estimate::known(back.value - shift.x(), back.sigma);
+  out.radius =
+      tread.known() ? Estimate::known(tread.value - shift.y(), tread.sigma) : Estimate::unknown(tread.reason);
+}
+
 }  // namespace
 
 WheelMeasurement measure_wheel(const Section& section, const ReferenceShape& reference,
@@ -173,6 +223,7 @@ WheelMeasurement measure_wheel(const Section& section, const ReferenceShape& ref
   if (!registration.usable()) {
     visit_estimates(
         [&](const char*, Estimate& estimate) { estimate = Estimate::unknown(registration.reason); }, out);
+    out.radius = out.back_place = Estimate::unknown(registration.reason);
     return out;
   }
   const PlacedSection placed = place(section, reference, registration);
@@ -184,6 +235,7 @@ WheelMeasurement measure_wheel(const Section& section, const ReferenceShape& ref
   out.hollow = hollow_of(placed);
   out.rim_width = rim_width(placed, back);
   out.diameter = diameter_of(tread, registration, kind);
+  add_places(tread, back, registration, kind, out);
   const auto nominal = reference.surface_along({datum_u, 0}, {0, 1}, 0);
   out.tread_wear = out.flange_height;
   if (out.tread_wear.value && nominal) *out.tread_wear.value -= reference.top_v() - *nominal;
@@ -191,9 +243,9 @@ WheelMeasurement measure_wheel(const Section& section, const ReferenceShape& ref
     out.flange_thickness = out.qr = Estimate::unknown(tread.known() ? tip.height.reason : tread.reason);
     return out;
   }
-  const Place face = face_at(placed, tread.value + options.face_height_mm, 1.0, tip.u, "flange face");
+  const Place face = face_at(placed, tread, options.face_height_mm, 1.0, tip.u, "flange face");
   const Place upper =
-      face_at(placed, tip.height.value - options.qr_below_tip_mm, 0.8, tip.u, "flange below its tip");
+      face_at(placed, tip.height, -options.qr_below_tip_mm, 0.8, tip.u, "flange below its tip");
   out.flange_thickness = difference(face, back);
   out.qr = difference(face, upper);
   return out;

@@ -40,8 +40,11 @@ struct WheelMeasurement {
   Estimate hollow;            ///< depth of the tread below its highest point on the field side
   Estimate rim_width;         ///< back to outer face
   Estimate diameter;          ///< at the datum
+  Estimate radius;            ///< at the datum; unlike the diameter's, sigma leaves the axis' own error out
+  Estimate back_place;        ///< of the back along the axis, + to the field side; rotary scans only
 };
 
+/// The quantities of the table.
 template <class V, class M>
 void visit_estimates(V&& v, M& m) requires std::is_same_v<std::remove_const_t<M>, WheelMeasurement> {
   v("flange_height", m.flange_height), v("flange_thickness", m.flange_thickness), v("qr", m.qr);

@@ -27,16 +27,21 @@ std::vector<Vector2d> trusted_points(const PlacedSection& placed) {
   return out;
 }
 
+/// The same in coordinates across and along `up`.
+std::vector<Vector2d> upright_points(const PlacedSection& placed, const Vector2d& up) {
+  std::vector<Vector2d> points = trusted_points(placed);
+  for (Vector2d& p : points) p = Vector2d(p.x() * up.y() - p.y() * up.x(), p.dot(up));
+  return points;
+}
+
 /// Medians of the heights in strips of the head, where there are points.
-std::vector<Sample1> strip_heights(const PlacedSection& placed, double half_width_mm) {
+std::vector<Sample1> strip_heights(const std::vector<Vector2d>& points, double top_v, double half_width_mm) {
   constexpr double kStripMm = 2, kDepthMm = 14;
-  const std::vector<Vector2d> trusted = trusted_points(placed);
   std::vector<Sample1> out;
   for (double u = -half_width_mm; u <= half_width_mm; u += kStripMm) {
     std::vector<double> heights;
-    for (const Vector2d& p : trusted)
-      if (std::abs(p.x() - u) < kStripMm / 2 && std::abs(p.y() - placed.reference.top_v()) < kDepthMm)
-        heights.push_back(p.y());
+    for (const Vector2d& p : points)
+      if (std::abs(p.x() - u) < kStripMm / 2 && std::abs(p.y() - top_v) < kDepthMm) heights.push_back(p.y());
     if (heights.size() >= 2) out.push_back({u, median_of(heights)});
   }
   return out;
@@ -55,31 +60,36 @@ std::optional<double> reference_radius(const PlacedSection& placed, const Vector
   return hit->s;
 }
 
-/// Fills holes of at most two sectors from their neighbours; false if there is a larger one.
-bool fill_holes(std::vector<Sector>& sectors) {
-  constexpr int kLargestHole = 2;
+/// Bridges holes (glare) of at most eight sectors, some 4 mm, in a straight way. Returns the variance of what
+/// is summed over them: between its two sides a hole's mean may lie anywhere. Nothing if there is a larger
+/// hole.
+std::optional<double> bridge_holes(std::vector<Sector>& sectors) {
+  constexpr int kLargestHole = 8;
   const int n = static_cast<int>(sectors.size());
+  double variance = 0;
   int last = -1;
   for (int i = 0; i <= n; ++i) {
     if (i < n && !sectors[static_cast<std::size_t>(i)].value) continue;
     const int hole = i - last - 1;
-    if (hole > kLargestHole) return false;
+    if (hole > kLargestHole || hole == n) return std::nullopt;
     for (int k = last + 1; k < i; ++k) {
       const double before = last >= 0 ? *sectors[static_cast<std::size_t>(last)].value
                                       : *sectors[static_cast<std::size_t>(i)].value;
       const double after = i < n ? *sectors[static_cast<std::size_t>(i)].value : before;
       sectors[static_cast<std::size_t>(k)].value = before + (after - before) * (k - last) / (hole + 1);
+      if (k == i - 1) variance += std::pow(hole * (after - before), 2) / 12;
     }
     last = i;
   }
-  return true;
+  return variance;
 }
 
 }  // namespace
 
-HeadTop find_head_top(const PlacedSection& placed) {
+HeadTop find_head_top(const PlacedSection& placed, const Vector2d& up) {
   constexpr double kHalfWidthMm = 25, kAroundMm = 6;
-  const std::vector<Sample1> strips = strip_heights(placed, kHalfWidthMm);
+  const std::vector<Vector2d> points = upright_points(placed, up);
+  const std::vector<Sample1> strips = strip_heights(points, placed.reference.top_v(), kHalfWidthMm);
   HeadTop top;
   if (strips.size() < 5) {
     top.reason = "top of the head not seen";
@@ -93,7 +103,7 @@ HeadTop find_head_top(const PlacedSection& placed) {
     return top;
   }
   std::vector<Sample1> around;
-  for (const Vector2d& p : trusted_points(placed))
+  for (const Vector2d& p : points)
     if (std::abs(p.x() - highest.t) < kAroundMm && std::abs(p.y() - highest.value) < 3)
       around.push_back({p.x() - highest.t, p.y() - highest.value});
   const auto fit = fit_polynomial(around, 2, kMinScaleMm);
@@ -106,6 +116,17 @@ HeadTop find_head_top(const PlacedSection& placed) {
   top.u = highest.t + vertex;
   top.v = highest.value + fit->value + fit->slope * vertex + fit->curvature * vertex * vertex / 2;
   return top;
+}
+
+SurfaceFit fit_head_face(const PlacedSection& placed, const Vector2d& origin, const Vector2d& outwards) {
+  constexpr double kLowestMm = 8.5, kHighestMm = 1.5, kReachMm = 60, kStraightMm = 0.02, kAgreesMm = 0.03;
+  const SurfaceFit here = fit_surface(placed, {origin, outwards, -1.5, 1.5, kReachMm, 2});
+  SurfaceProbe below{origin, outwards, -kLowestMm, -kHighestMm, kReachMm, 1, true};
+  if (outwards.x() < 0) below.from_mm = kHighestMm, below.to_mm = kLowestMm;
+  const SurfaceFit carried = fit_surface(placed, below);
+  const bool agrees = here.known() && carried.known() && carried.rms_mm < kStraightMm &&
+                      std::abs(carried.wear_mm - here.wear_mm) < kAgreesMm;
+  return agrees ? carried : here;
 }
 
 Estimate head_area_loss(const PlacedSection& placed) {
@@ -129,7 +150,8 @@ Estimate head_area_loss(const PlacedSection& placed) {
   }
   for (Sector& sector : sectors)
     if (sector.differences.size() >= 1) sector.value = median_of(sector.differences);
-  if (!fill_holes(sectors)) return Estimate::unknown("head not seen all round");
+  const auto bridged = bridge_holes(sectors);
+  if (!bridged) return Estimate::unknown("head not seen all round");
   double area = 0;
   for (const Sector& sector : sectors) area += *sector.value * width;
   // A shift up by one sigma adds the head's width times it; sideways and turned it nearly cancels.
@@ -137,7 +159,7 @@ Estimate head_area_loss(const PlacedSection& placed) {
   const double noise =
       placed.registration.rms_mm * *face *
       std::sqrt(width * placed.registration.correlated_points * (std::numbers::pi - 2 * lowest));
-  return Estimate::known(area, std::hypot(place, noise));
+  return Estimate::known(area, std::hypot(place, noise, width * std::sqrt(*bridged)));
 }
 
 Estimate find_lip(const PlacedSection& placed, int side, double lip_mm) {

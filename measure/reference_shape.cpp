@@ -34,7 +34,15 @@ ReferenceShape::ReferenceShape(std::string name, ObjectKind kind, Outline outlin
   find_landmarks();
   for (std::size_t i = 0; i + 1 < vertices_.size(); ++i)
     zones_.push_back(zone_at((vertices_[i] + vertices_[i + 1]) / 2));
+  lengths_.assign(1, 0.0);
+  for (std::size_t i = 1; i < vertices_.size(); ++i)
+    lengths_.push_back(lengths_.back() + (vertices_[i] - vertices_[i - 1]).norm());
   fill_map();
+}
+
+double ReferenceShape::arc_length(const PolylineFoot& foot) const {
+  const auto segment = static_cast<std::size_t>(foot.segment);
+  return lengths_[segment] + (foot.position - vertices_[segment]).norm();
 }
 
 void ReferenceShape::find_landmarks() {

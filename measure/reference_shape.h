@@ -53,6 +53,8 @@ class ReferenceShape {
   /// The foot on the outline's polyline, by a map of nearest vertices and a walk from there: where two parts
   /// of the outline are equally near (within a millimetre) it may be either's.
   std::optional<PolylineFoot> nearest(const Eigen::Vector2d& p) const;
+  /// Of a foot, from the outline's beginning, mm.
+  double arc_length(const PolylineFoot& foot) const;
   Zone zone(const PolylineFoot& foot) const { return zones_[static_cast<std::size_t>(foot.segment)]; }
   /// Distance to the outline within about a millimetre, cut off at 20.
   double coarse_distance(const Eigen::Vector2d& p) const {
@@ -86,7 +88,8 @@ class ReferenceShape {
   ObjectKind kind_;
   Outline outline_;
   std::vector<Eigen::Vector2d> vertices_;
-  std::vector<Zone> zones_;  // of each segment of the polyline
+  std::vector<double> lengths_;  // along the outline, of each vertex
+  std::vector<Zone> zones_;      // of each segment of the polyline
   double top_u_ = 0, top_v_ = 0, bottom_v_ = 0;
   Eigen::Vector2d corner_ = Eigen::Vector2d::Zero();  // of the map
   int columns_ = 0, rows_ = 0;

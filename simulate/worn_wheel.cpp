@@ -13,7 +13,9 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kFaceU = -36, kTreadU = -22;  // the flange's wear fades out between them
+constexpr double kFaceU = -36, kTreadU = -22;  // the flange's wear fades out between them towards the tread
+constexpr double kFaceV = 12;                  // and from here to the tip's height
+constexpr double kRunningEndU = 60;            // of the tread, where the chamfer begins
 constexpr double kHollowHalf = 30;             // half the width of the tread's hollow
 
 /// 1 below `low`, 0 above `high`, smooth between.
@@ -22,10 +24,11 @@ double fading(double x, double low, double high) {
   return 1 - t * t * (3 - 2 * t);
 }
 
-Vector2d worn_point(const Vector2d& p, const WheelWear& wear) {
+Vector2d worn_point(const Vector2d& p, double tip_v, const WheelWear& wear) {
   const double sunk =
       std::abs(p.x()) < kHollowHalf ? 0.5 * (1 + std::cos(std::numbers::pi * p.x() / kHollowHalf)) : 0;
-  return {p.x() - wear.flange_mm * fading(p.x(), kFaceU, kTreadU), p.y() - wear.tread_mm * sunk};
+  const double moved = fading(p.x(), kFaceU, kTreadU) * fading(p.y(), kFaceV, tip_v);
+  return {p.x() - wear.flange_mm * moved, p.y() - wear.tread_mm * sunk};
 }
 
 std::vector<Vector2d> points_of(const Outline& outline, double spacing_mm) {
@@ -39,28 +42,18 @@ std::size_t highest(const std::vector<Vector2d>& points) {
   return static_cast<std::size_t>(std::max_element(points.begin(), points.end(), lower) - points.begin());
 }
 
-/// The polygon of what is left: outer face, tread and active face as worn, up to where they meet what the
-/// flange's back was before.
+/// The polygon of what is left: outer face, tread and active face as worn up to the tip, the back as it was.
 std::vector<Vector2d> worn_points(const Outline& nominal, const WheelWear& wear, double spacing_mm) {
-  const std::vector<Vector2d> points = points_of(nominal, spacing_mm);
+  std::vector<Vector2d> points = points_of(nominal, spacing_mm);
   const std::size_t tip = highest(points);
-  std::vector<Vector2d> worn;
-  double meeting_u = points[tip].x();
-  for (std::size_t i = 0; i <= tip; ++i) {
-    const bool running = points[i].y() > -20 && points[i].x() < 60;
-    const Vector2d p = running ? worn_point(points[i], wear) : points[i];
-    if (running && wear.flange_mm > 0 && p.x() < points[tip].x() && !contains(nominal, p)) {
-      const Vector2d step = p - worn.back();
-      const auto hit = first_hit(nominal, worn.back(), step, 0);
-      if (hit) worn.push_back(worn.back() + hit->s * step);
-      meeting_u = worn.back().x();
-      break;
-    }
-    worn.push_back(p);
+  const double tip_v = points[tip].y();
+  double face_u = kRunningEndU;  // what wears the face leaves nothing above that would stand out over it
+  for (std::size_t i = 0; i < tip; ++i) {
+    if (points[i].y() < -20 || points[i].x() > kRunningEndU) continue;  // outer face and chamfer
+    points[i] = worn_point(points[i], tip_v, wear);
+    points[i].x() = face_u = std::min(points[i].x(), face_u);
   }
-  for (std::size_t i = tip + 1; i < points.size(); ++i)
-    if (points[i].x() < meeting_u) worn.push_back(points[i]);
-  return worn;
+  return points;
 }
 
 /// u where the section's active face has this height, seen from the tip downwards.
@@ -75,7 +68,8 @@ double face_at(const std::vector<Vector2d>& points, double v) {
 
 /// v of the tread at u.
 double tread_at(const std::vector<Vector2d>& points, double u) {
-  for (std::size_t i = 1; i <= highest(points); ++i) {
+  const std::size_t tip = highest(points);
+  for (std::size_t i = 1; i <= tip; ++i) {
     const Vector2d &right = points[i - 1], &left = points[i];
     if (right.x() < u || left.x() > u || right.x() == left.x() || right.y() < -20) continue;
     return left.y() + (u - left.x()) / (right.x() - left.x()) * (right.y() - left.y());

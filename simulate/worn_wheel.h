@@ -14,10 +14,11 @@ struct WheelWear {
   double tread_mm = 0;   ///< how much lower the tread is at the datum
 };
 
-/// The flange's face from its tip to u = -36 moves by flange_mm, less and less down to u = -22 where the
-/// tread begins; the tread sinks by a hollow 60 mm wide, deepest at the datum. Material is only ever taken
-/// away. An unworn section comes back as it is, a worn one as short straight pieces of at most `spacing_mm`.
-/// An Error where the section is no wheel's or nothing would be left of the flange.
+/// The flange's face moves by flange_mm between u = -36 and v = 12, less and less (smoothly) down to u = -22
+/// where the tread begins and up to the tip, which stays; where it would then overhang, it stands upright.
+/// The tread sinks by a hollow 60 mm wide, deepest at the datum. Material is only ever taken away. An unworn
+/// section comes back as it is, a worn one as short straight pieces of about `spacing_mm`. An Error where the
+/// section is no wheel's or nothing would be left of the flange.
 Outline worn_wheel(const Outline& nominal, const WheelWear& wear, double spacing_mm = 0.05);
 
 struct WheelDimensions {

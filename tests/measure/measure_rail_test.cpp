@@ -68,6 +68,23 @@ TEST_F(MeasureRail, WearIsWhatTheOutlineLost) {
   }
 }
 
+// A hole of 3 mm in the worn corner is bridged, one of 12 mm is too much.
+TEST_F(MeasureRail, HeadAreaIsKnownAcrossAGlareButNotAcrossTheWholeCorner) {
+  const Outline worn = worn_rail(nominal, 3, 2);
+  const double whole = value(measured(worn).head_area_loss);
+  for (const double half_mm : {1.5, 6.0}) {
+    Section section = rail_section(worn, {});
+    const Vector2d corner(29, -7.5);
+    std::erase_if(section, [&](const SectionPoint& p) { return (p.position - corner).norm() < half_mm; });
+    const Estimate area = measured(section).head_area_loss;
+    if (half_mm > 3) {
+      EXPECT_FALSE(area.value);
+    } else {
+      EXPECT_NEAR(value(area), whole, 1.5);  // the difference bends by half a millimetre over 3 mm
+    }
+  }
+}
+
 TEST_F(MeasureRail, SideWearFollowsTheGaugeSide) {
   const Section section = rail_section(worn_rail(nominal, 1, 2), {});
   EXPECT_NEAR(value(measured(section, {.gauge_side = GaugeSide::kLeft}).side_wear), 2, 0.01);

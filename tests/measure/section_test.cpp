@@ -61,7 +61,8 @@ TEST(Sections, GlareAndStripeEndsCountLittle) {
     profile.points.push_back(point);
   }
   const Section section = section_of(profile);
-  EXPECT_EQ(section[20].weight, 1);
+  EXPECT_EQ(section[30].weight, 1);
+  EXPECT_LT(section[16].weight, 0.5);  // 8 mm from the end
   EXPECT_LT(section[42].weight, 0.02);
   EXPECT_LT(section[2].weight, 0.1);
   EXPECT_LT(section[97].weight, 0.1);

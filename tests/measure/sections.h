@@ -59,4 +59,17 @@ inline Section wheel_section(const Outline& wheel, double lowest_v, const Sectio
   return section;
 }
 
+/// As profiles.csv has it; every chain is a line of its sensor.
+inline Profile profile_of(const Section& section, double travel = 0) {
+  Profile profile;
+  profile.travel = travel;
+  for (const SectionPoint& point : section) {
+    ProfilePoint p;
+    p.u = point.position.x(), p.v = point.position.y();
+    p.sensor = point.sensor, p.line = point.chain;
+    profile.points.push_back(p);
+  }
+  return profile;
+}
+
 }  // namespace lightstripe

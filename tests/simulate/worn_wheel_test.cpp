@@ -31,12 +31,39 @@ TEST(WornWheel, TreadWearRaisesTheFlangeByWhatTheTreadHasSunk) {
   EXPECT_LT(size.hollow, 1.5);
 }
 
-TEST(WornWheel, FlangeWearThinsTheFlangeByItsAmount) {
-  // 10 mm above the datum the face has moved by the full amount; the tip becomes the meeting of two arcs R12
-  // whose centres are 2 mm apart: lower by 12 - sqrt(12^2 - 1) = 0.0417.
-  const WheelDimensions size = measure_wheel_section(worn_wheel(read_nominal("S1002"), {2.0, 0}));
+TEST(WornWheel, FlangeWearThinsTheFlangeByItsAmountAndSparesTheTip) {
+  const Outline worn = worn_wheel(read_nominal("S1002"), {2.0, 0});
+  const WheelDimensions size = measure_wheel_section(worn);
   EXPECT_NEAR(size.flange_thickness, 30.5, 1e-3);
-  EXPECT_NEAR(size.flange_height, 28 - 0.0417, 1e-3);
+  EXPECT_NEAR(size.flange_height, 28.0, 1e-3);
+  // By hand: 2 below the tip the nominal face stands at -55 + sqrt(12^2 - 10^2), and the wear has faded to
+  // 2 (1 - t^2 (3 - 2 t)) at t = (26 - 12) / (28 - 12); 10 above the datum it is whole.
+  const double t = 14.0 / 16.0, faded = 2 * (1 - t * t * (3 - 2 * t));
+  EXPECT_NEAR(size.qr, 10.794 - 2 + faded, 2e-3);
+}
+
+TEST(WornWheel, WornFaceIsAsSmoothAsTheNominalOne) {
+  const Outline worn = worn_wheel(read_nominal("S1002"), {2.0, 1.5});
+  const std::vector<OutlineSample> points = sample(worn, 0.05);
+  double sharpest = 0;  // turn between neighbours on flange and tread; an edge would turn by tens of degrees
+  for (std::size_t i = 1; i + 1 < points.size(); ++i) {
+    const Vector2d before = points[i].position - points[i - 1].position;
+    const Vector2d after = points[i + 1].position - points[i].position;
+    if (points[i].position.y() < -2 || points[i].position.x() < -69) continue;
+    const double cross = before.x() * after.y() - before.y() * after.x();
+    sharpest = std::max(sharpest, std::abs(std::atan2(cross, before.dot(after))));
+  }
+  EXPECT_LT(sharpest, 0.02);  // 0.05 mm of R12 turn by 0.004, of R5 by 0.01
+}
+
+TEST(WornWheel, MuchFlangeWearLeavesAnUprightFaceAndNoOverhang) {
+  const Outline worn = worn_wheel(read_nominal("S1002"), {9.0, 0});
+  EXPECT_NEAR(measure_wheel_section(worn).flange_thickness, 23.5, 1e-3);
+  const std::vector<OutlineSample> points = sample(worn, 0.05);
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    if (points[i].position.y() < 0 || points[i - 1].position.x() < -54.9) continue;
+    EXPECT_LE(points[i].position.x(), points[i - 1].position.x() + 1e-9);  // field side to tip
+  }
 }
 
 TEST(WornWheel, OnlyTakesMaterialAway) {

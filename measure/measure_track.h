@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+// One frame with both rails of a track -> one row: the left rail in the table's own columns, the right one
+// and the gauge behind them.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "measure/measure_profile.h"
+
+namespace lightstripe {
+
+struct MeasuredTrack {
+  const ReferenceShape& left;               ///< the rail at +u
+  const ReferenceShape& right;              ///< may be the same
+  double between_u = 0;                     ///< where the rails part, see place_between_rails()
+  std::optional<double> rig_sigma_mm = {};  ///< of each rail's place, from the rig's calibration
+};
+
+/// The gauge side of each rail is the one that faces the other. `status` is ok where both rails and the gauge
+/// are.
+MeasuredFrame measure_track(const Profile& profile, const MeasuredTrack& track,
+                            const MeasureOptions& options);
+
+/// Behind `status`: the left rail's extras, gauge, and all of the right rail's with the prefix right_.
+std::vector<std::string> track_extra_names();
+
+}  // namespace lightstripe
