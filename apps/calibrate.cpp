@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "apps/board_overlay.h"
+#include "apps/calibration_advice.h"
 #include "apps/calibration_report.h"
 #include "apps/run_record.h"
 #include "core/error.h"
@@ -24,15 +25,17 @@ struct CalibrateArguments {
 
 std::string describe_rejected(const std::vector<RejectedImage>& rejected) {
   std::string text;
-  for (const auto& image : rejected) text += fmt::format("  {:<10} {:<16} {}\n", image.sensor, image.image, image.reason);
+  for (const auto& image : rejected)
+    text += fmt::format("  {:<10} {:<16} {}\n", image.sensor, image.image, image.reason);
   return text.empty() ? "" : "left out:\n" + text;
 }
 
 std::string describe_views(const std::vector<ViewResidual>& views) {
   std::string text = "  sensor     image             corners  rms px    stripe  rms px  left out\n";
   for (const auto& v : views)
-    text += fmt::format("  {:<10} {:<16} {:>8} {:>7.3f}  {:>8} {:>7}  {:>8}\n", v.sensor, v.image, v.corners, v.board_rms_px,
-                        v.stripe_points, v.stripe_points > 0 ? fmt::format("{:.3f}", v.stripe_rms_px) : "-", v.left_out);
+    text += fmt::format("  {:<10} {:<16} {:>8} {:>7.3f}  {:>8} {:>7}  {:>8}\n", v.sensor, v.image, v.corners,
+                        v.board_rms_px, v.stripe_points,
+                        v.stripe_points > 0 ? fmt::format("{:.3f}", v.stripe_rms_px) : "-", v.left_out);
   return text;
 }
 
@@ -42,7 +45,8 @@ std::string describe_lenses(const std::vector<LensChoice>& lenses) {
     text += fmt::format("{}: lens model {}", choice.sensor, enum_name(choice.lens));
     std::string tried;
     for (const auto& trial : choice.trials)
-      tried += fmt::format("{}{} {:.4f}", tried.empty() ? "" : ", ", enum_name(trial.lens), trial.held_out_rms_px);
+      tried +=
+          fmt::format("{}{} {:.4f}", tried.empty() ? "" : ", ", enum_name(trial.lens), trial.held_out_rms_px);
     text += tried.empty() ? "\n" : fmt::format(" (error on views left out, px: {})\n", tried);
   }
   return text;
@@ -71,8 +75,8 @@ std::string describe_calibration(const SessionObservations& seen, const Calibrat
   text += describe_lenses(result.summary.lenses);
   const RigQuality& quality = result.rig.quality;
   for (const auto& s : quality.sensors)
-    text += fmt::format("{}: corners {:.3f} px rms in {} views, stripe {:.3f} px rms in {} views\n", s.name, s.board_rms_px,
-                        s.board_views, s.stripe_rms_px, s.stripe_views);
+    text += fmt::format("{}: corners {:.3f} px rms in {} views, stripe {:.3f} px rms in {} views\n", s.name,
+                        s.board_rms_px, s.board_views, s.stripe_rms_px, s.stripe_views);
   if (quality.section_shape_sigma_mm > 0)
     text += fmt::format("predicted error of a section: {:.4f} mm in shape, {:.3f} mm in place\n",
                         quality.section_shape_sigma_mm, quality.section_absolute_sigma_mm);
@@ -84,8 +88,9 @@ std::string describe_calibration(const SessionObservations& seen, const Calibrat
   return text;
 }
 
-int calibrate_session(const std::string& session_file, const Overrides& extraction, const Overrides& calibration,
-                      const CommonOptions& common, const CalibrationFiles& files) {
+int calibrate_session(const std::string& session_file, const Overrides& extraction,
+                      const Overrides& calibration, const CommonOptions& common,
+                      const CalibrationFiles& files) {
   const ThreadLimit limit(common);
   const Session session = read_session(session_file);
   ExtractionOptions extraction_options;
@@ -105,7 +110,9 @@ int calibrate_session(const std::string& session_file, const Overrides& extracti
     say(common, "report -> " + files.report);
   }
   const std::string output = common.output.empty() ? "rig.yaml" : common.output;
-  if (!result.summary.usable) return not_usable(result.summary.message + " (" + output + " is not written)");
+  if (!result.summary.usable)
+    return not_usable(result.summary.message + calibration_advice(session, seen) + " (" + output +
+                      " is not written)");
   write_file(output, rig_to_yaml(result.rig));
   if (!files.camera_folder.empty()) write_cameras(files.camera_folder, result.rig);
   write_run_record(output, "calibrate", {session_file},
@@ -116,19 +123,23 @@ int calibrate_session(const std::string& session_file, const Overrides& extracti
 }
 
 void add_calibrate_command(CLI::App& app, Command& run) {
-  auto* command = app.add_subcommand("calibrate", "cameras, laser planes, rig and motion from checkerboard images");
+  auto* command =
+      app.add_subcommand("calibrate", "cameras, laser planes, rig and motion from checkerboard images");
   auto arguments = std::make_shared<CalibrateArguments>();
   command->add_option("session", arguments->session, "calibration session (YAML)")->required();
   add_common_options(*command, arguments->common, "rig file (default: rig.yaml)");
-  command->add_option("--report", arguments->files.report, "calibration.html: verdict, residuals, uncertainty, pictures");
-  command->add_option("--overlay", arguments->files.overlay, "folder for the pictures with corners and stripes drawn in");
-  command->add_option("--cameras", arguments->files.camera_folder, "folder for the cameras as OpenCV, ROS and mrcal read them");
+  command->add_option("--report", arguments->files.report,
+                      "calibration.html: verdict, residuals, uncertainty, pictures");
+  command->add_option("--overlay", arguments->files.overlay,
+                      "folder for the pictures with corners and stripes drawn in");
+  command->add_option("--cameras", arguments->files.camera_folder,
+                      "folder for the cameras as OpenCV, ROS and mrcal read them");
   add_field_options<ExtractionOptions>(*command, "extraction.", arguments->extraction);
   add_field_options<CalibrationOptions>(*command, "calibration.", arguments->calibration);
   command->callback([arguments, &run] {
     run = [arguments] {
-      return calibrate_session(arguments->session, arguments->extraction, arguments->calibration, arguments->common,
-                               arguments->files);
+      return calibrate_session(arguments->session, arguments->extraction, arguments->calibration,
+                               arguments->common, arguments->files);
     };
   });
 }

@@ -47,7 +47,7 @@ class ThreadLimit {
 
 /// An option of a field list as given on the command line, applied after the files were read.
 struct Override {
-  std::string flag, field, value;
+  std::string origin, field, value;  ///< origin: "--extraction" of --extraction.stripe-width, for messages
 };
 using Overrides = std::vector<Override>;
 
@@ -56,14 +56,15 @@ using Overrides = std::vector<Override>;
 /// twice.
 template <HasFields T>
 void add_field_options(CLI::App& app, const std::string& prefix, Overrides& overrides) {
+  const std::string origin = prefix.empty() ? "" : "--" + prefix.substr(0, prefix.size() - 1);
   for (const FieldText& field : list_fields(T{})) {
     std::string flag = "--" + prefix + field.key;
     std::replace(flag.begin(), flag.end(), '_', '-');
     const std::string help = field.comment + (field.value.empty() ? "" : " [" + field.value + "]");
     app.add_option_function<std::string>(
            flag,
-           [&overrides, flag, key = field.key](const std::string& value) {
-             overrides.push_back({flag, key, value});
+           [&overrides, origin, key = field.key](const std::string& value) {
+             overrides.push_back({origin, key, value});
            },
            help)
         ->group(prefix.empty() ? "Method" : "Over the file's " + prefix.substr(0, prefix.size() - 1));
@@ -72,7 +73,7 @@ void add_field_options(CLI::App& app, const std::string& prefix, Overrides& over
 
 template <HasFields T>
 void apply_overrides(T& options, const Overrides& overrides) {
-  for (const auto& given : overrides) set_field(options, given.field, given.value, given.flag);
+  for (const auto& given : overrides) set_field(options, given.field, given.value, given.origin);
 }
 
 /// A line for the user on stdout, unless quiet.

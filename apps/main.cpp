@@ -5,6 +5,7 @@
 #include <glog/logging.h>
 
 #include <CLI/CLI.hpp>
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <opencv2/core/utils/logger.hpp>
@@ -15,11 +16,14 @@
 namespace {
 
 constexpr const char* kFirstSteps =
-    "First steps:\n"
-    "  lightstripe demo -o demo-output            the whole chain on a built-in synthetic rig\n"
-    "  lightstripe calibrate session.yaml -o rig.yaml\n"
-    "  lightstripe reconstruct scan.yaml -o cloud.ply\n"
-    "`lightstripe COMMAND --help` tells the options of a command.";
+    "What to do first:\n"
+    "  1. See it work, nothing needed:            lightstripe demo -o demo-output\n"
+    "  2. Look at a picture of your laser line:   lightstripe extract frame.png -o stripes.csv --overlay overlay\n"
+    "  3. Copy configs/calibration.yaml, name your board pictures in it, and\n"
+    "                                             lightstripe calibrate session.yaml -o rig.yaml\n"
+    "  4. Copy configs/scan.yaml, name your scan's pictures in it, and\n"
+    "                                             lightstripe reconstruct scan.yaml -o cloud.ply\n"
+    "`lightstripe COMMAND --help` tells the options of a command; docs/how-to/ how to take the pictures.";
 
 int run(int argc, char** argv) {
   CLI::App app{"lightstripe: calibrate laser-stripe rigs, reconstruct profiles, write point clouds",
@@ -55,6 +59,7 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
   // OpenCV's own lines on stderr say less than our one error line, and would stand before it.
   cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
+  std::signal(SIGXFSZ, SIG_IGN);  // a limit on a file's size is an error of writing like a full disk
   FLAGS_minloglevel = google::GLOG_FATAL;  // Ceres tells of steps that it then takes back
   try {
     return run(argc, argv);

@@ -39,6 +39,22 @@ void warn_of_gaps(const ScanSummary& summary) {
                      summary.rays_missed));
 }
 
+/// Why there is nothing, and what helps.
+std::string why_empty(const ReconstructOutcome& outcome) {
+  const ScanSummary& summary = outcome.summary;
+  if (summary.frames == 0)
+    return "none of the frames has a position (nothing is written); number the travel table's frames as the "
+           "pictures";
+  std::string text =
+      fmt::format("no stripe was found in any of the {} frames (nothing is written); ", summary.frames);
+  constexpr int kDark = 60;
+  if (outcome.brightest < kDark)
+    text +=
+        fmt::format("the pictures are dark, grey level {} at most: expose longer, or switch the laser on; ",
+                    outcome.brightest);
+  return text + "look at a frame with `lightstripe extract --overlay`";
+}
+
 int run_reconstruct(const ReconstructArguments& arguments) {
   const std::string output = arguments.common.output.empty() ? "cloud.ply" : arguments.common.output;
   const ReconstructOutcome outcome = reconstruct_scan(arguments);
@@ -49,9 +65,7 @@ int run_reconstruct(const ReconstructArguments& arguments) {
     return not_usable(
         fmt::format("interrupted before frame {}; what is done is kept in {}; --resume goes on from there",
                     outcome.end_frame, outcome.partial_cloud));
-  if (summary.points == 0)
-    return not_usable("no stripe was found in any of the " + std::to_string(summary.frames) +
-                      " frames (nothing is written); look at a frame with `lightstripe extract --overlay`");
+  if (summary.points == 0) return not_usable(why_empty(outcome));
   say(arguments.common,
       fmt::format("{} frames, {} points in {:.2f} s ({:.1f} frames/s) -> {}", summary.frames, summary.points,
                   outcome.seconds, static_cast<double>(outcome.frames_now) / outcome.seconds, output));

@@ -34,6 +34,7 @@ struct ReconstructOutcome {
   std::int64_t first_frame = 0, end_frame = 0;
   std::int64_t frames_now = 0;  ///< of this run, without those of the one that it went on from
   double seconds = 0;
+  int brightest = 0;          ///< where nothing was found: largest grey level of some pictures
   std::string partial_cloud;  ///< where the part is that was done before the run was interrupted
 };
 

@@ -3,6 +3,7 @@
 // The run of `reconstruct`: everything but its messages.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <fstream>
 #include <limits>
@@ -129,6 +130,28 @@ ScanInput scan_input(const Job& job, const Recording& recording, const ScanOutpu
   return input;
 }
 
+/// Largest grey level, of 8 bits, of the first pictures that can be read.
+int brightest_level(const Job& job, const Recording& recording) {
+  constexpr int kPictures = 5;
+  int looked_at = 0, brightest = 0;
+  for (std::int64_t frame = job.first_frame; frame < job.end_frame; ++frame)
+    for (int sensor = 0; sensor < static_cast<int>(job.rig.sensors.size()); ++sensor) {
+      if (looked_at == kPictures) return brightest;
+      if (recording.picture_name(frame, sensor).empty()) continue;
+      try {
+        const auto picture = recording.read(frame, sensor);
+        ++looked_at;
+        if (const auto* image = picture ? std::get_if<Image8>(&*picture) : nullptr; image != nullptr)
+          brightest = std::max<int>(brightest, *std::max_element(image->pixels.begin(), image->pixels.end()));
+        else
+          return 255;  // of 16 bits nobody knows which are used
+      } catch (const Error&) {
+        continue;  // was told when its turn came
+      }
+    }
+  return brightest;
+}
+
 std::string in_quotes(const std::string& text) {
   std::string out = "\"";
   for (const char c : text) {
@@ -223,6 +246,7 @@ ReconstructOutcome reconstruct_scan(const ReconstructArguments& arguments) {
                 "look at the pictures");
   if (arguments.strict && !outcome.doubles.empty())
     throw Error(outcome.doubles.front(), "another picture has the same number", "keep one of them");
+  if (outcome.summary.points == 0) outcome.brightest = brightest_level(job, recording);
   close_output(job, recording, preview, output, outcome);
   return outcome;
 }

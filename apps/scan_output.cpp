@@ -11,6 +11,7 @@
 #include <system_error>
 
 #include "core/error.h"
+#include "io/atomic_file.h"
 #include "io/tables.h"
 
 namespace lightstripe {
@@ -25,8 +26,7 @@ int open_journal(const fs::path& path) {
   if (path.has_parent_path()) fs::create_directories(path.parent_path(), ignored);
   const int journal = ::open(path.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
   if (journal < 0)
-    throw Error(path.string(), "cannot be written (" + std::generic_category().message(errno) + ")",
-                "name another place");
+    cannot_write(path, errno);
   if (::flock(journal, LOCK_EX | LOCK_NB) == 0) return journal;
   ::close(journal);
   throw Error(path.string(), "another run writes these files", "wait for it, or name another output");
@@ -34,8 +34,7 @@ int open_journal(const fs::path& path) {
 
 void put(int journal, const fs::path& path, std::string_view text) {
   if (::write(journal, text.data(), text.size()) != static_cast<ssize_t>(text.size()))
-    throw Error(path.string(), "cannot be written (" + std::generic_category().message(errno) + ")",
-                "free some space");
+    cannot_write(path, errno);
 }
 
 }  // namespace
@@ -64,8 +63,7 @@ fs::path ScanOutput::journal_path() const {
 
 void ScanOutput::begin() {
   tally_.next_frame = options_.first_frame;
-  if (::ftruncate(journal_, 0) != 0)
-    throw Error(journal_path().string(), "cannot be written", "check the folder's permissions");
+  if (::ftruncate(journal_, 0) != 0) cannot_write(journal_path(), errno);
   cloud_.emplace(options_.cloud, cloud_header(format_, 0));
   if (!options_.profiles.empty()) profiles_.emplace(options_.profiles, kProfilesHeader);
   put(journal_, journal_path(), journal_head(options_.fingerprint));
@@ -79,7 +77,7 @@ bool ScanOutput::go_on() {
                 "run again without --resume");
   if (!state->has_entry) return false;
   if (::ftruncate(journal_, state->bytes) != 0)  // what was said of frames that are done again now
-    throw Error(journal_path().string(), "cannot be written", "check the folder's permissions");
+    cannot_write(journal_path(), errno);
   tally_ = state->tally;
   has_entry_ = true;
   was_complete_ = state->complete;

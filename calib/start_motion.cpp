@@ -78,8 +78,8 @@ MotionState fit_direction(const Track& track, const Target& target, std::vector<
   const double scale = sp.norm() / ss;
   if (!(scale > 0.5 && scale < 2))
     throw NotUsable(
-        fmt::format("motion: the board moved {:.2f} mm in the camera for each mm of travel; check the travel "
-                    "positions and their order",
+        fmt::format("motion: the board moved {:.2f} mm in the camera for each mm of travel; check that "
+                    "travel and squares are given in mm, and the order of the positions",
                     scale));
   if (std::abs(scale - 1) > kMaxScaleError)
     warnings.push_back(
@@ -135,7 +135,12 @@ void start_motion(InitialValues& values) {
         "better 5",
         track.travel.size()));
   if (track.extent() < (rotary ? kMinTurn : kMinTravelMm))
-    throw NotUsable("motion: all images of the fixed board have the same travel; move the rig between them");
+    throw NotUsable(
+        fmt::format("motion: all images of the fixed board have the same travel within {:.3g} {}; move the "
+                    "rig between them, and "
+                    "give the travel in {}",
+                    rotary ? track.extent() / kDegree : track.extent(), rotary ? "degrees" : "mm",
+                    rotary ? "degrees" : "mm"));
   values.state.motion =
       rotary ? fit_axis(track) : fit_direction(track, values.measurements.target, values.warnings);
 }

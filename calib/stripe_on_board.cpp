@@ -199,8 +199,10 @@ StripeOnBoard select_stripes(const std::vector<Stripe>& stripes, const std::vect
     const auto chosen = best_line(points);
     if (chosen.empty()) {
       result.reason =
-          i == 0 ? fmt::format("no straight stripe on the board ({} bright points on it)", points.size())
-                 : fmt::format("{} of {} stripes on the board", i, laser_planes);
+          i > 0 ? fmt::format("{} of {} stripes on the board", i, laser_planes)
+          : points.empty()
+              ? "no light on the board; is the laser on in this picture, and bright enough?"
+              : fmt::format("no straight stripe on the board ({} bright points on it)", points.size());
       result.planes.clear();
       return result;
     }

@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t kLeastReach = 2;  // nodes to both sides
 
 /// The way from a smoothed node to the true line. `sigma_px`: the node's own error.
-FitPoint shift_of(const LocalFit& fit, double curvature_gain, double sigma, double sigma_px) {
+LocalFitPoint shift_of(const LocalFit& fit, double curvature_gain, double sigma, double sigma_px) {
   const double half_variance = 0.5 * (sigma * sigma + 1.0 / 12);
   // Neighbouring points share their noise over 2 sqrt(pi) sigma.
   const double shared = std::max(1.0, 3.545 * sigma / std::sqrt(fit.squared_step));
@@ -52,7 +52,7 @@ void correct_stretch(std::span<StripePoint> points, double sigma, BendWorkspace&
   }
   const double step = 1 / static_cast<double>(stride);
   for (std::size_t n = 0; n < w.nodes.size(); ++n) {
-    const FitPoint a = w.shifts[n], b = w.shifts[std::min(n + 1, w.shifts.size() - 1)];
+    const LocalFitPoint a = w.shifts[n], b = w.shifts[std::min(n + 1, w.shifts.size() - 1)];
     const double dx = step * (b.x - a.x), dy = step * (b.y - a.y);
     const std::size_t first = n * stride, count = std::min(stride, points.size() - first);
     for (std::size_t k = 0; k < count; ++k) {

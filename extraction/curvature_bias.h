@@ -13,8 +13,8 @@ namespace lightstripe {
 
 /// Scratch memory.
 struct BendWorkspace {
-  std::vector<FitPoint> nodes;   ///< one point an evaluation of a stretch
-  std::vector<FitPoint> shifts;  ///< px, of each node
+  std::vector<LocalFitPoint> nodes;   ///< one point an evaluation of a stretch
+  std::vector<LocalFitPoint> shifts;  ///< px, of each node
 };
 
 /// Moves points by sigma^2 / 2 times the line's curvature to the outer side: the heat equation in polar

@@ -35,7 +35,7 @@ struct Continuation {
 
 /// What is known of a line further in than an end disturbs it.
 struct Inside {
-  std::span<const FitPoint> places;  ///< from the end on
+  std::span<const LocalFitPoint> places;  ///< from the end on
   double sigma_px = 0;               ///< of each
   double shared = 1;                 ///< points that share their noise
   std::size_t narrow = 0, wide = 0;  ///< reaches of the two parabolas
@@ -46,7 +46,7 @@ struct Inside {
 Continuation continue_line(const Inside& inside, std::size_t i, std::size_t first_good,
                            const StripePoint& at) {
   LocalFitter fitter(inside.places);
-  FitPoint near, far;
+  LocalFitPoint near, far;
   Continuation c;
   for (const bool wide : {false, true}) {
     const std::size_t reach = wide ? inside.wide : inside.narrow;
@@ -93,7 +93,7 @@ bool is_joined(const EndView& end, std::size_t count) {
   return joined_end(stretch, 0) == count;
 }
 
-void mend_end(const EndView& end, double sigma, std::vector<FitPoint>& places) {
+void mend_end(const EndView& end, double sigma, std::vector<LocalFitPoint>& places) {
   const auto scale = static_cast<std::size_t>(std::ceil(sigma));
   const std::size_t narrow = 2 * scale, wide = 4 * scale, most = 3 * scale, retreat = 3 * scale;
   if (end.size() < most + retreat + 2 * wide + 2) return;
@@ -134,7 +134,7 @@ void mend_end(const EndView& end, double sigma, std::vector<FitPoint>& places) {
 
 }  // namespace
 
-void mend_line_ends(const DerivativeKernels& kernels, LineSet& lines, std::vector<FitPoint>& places) {
+void mend_line_ends(const DerivativeKernels& kernels, LineSet& lines, std::vector<LocalFitPoint>& places) {
   for (const LineRange& r : lines.lines) {
     const std::span<StripePoint> line(lines.points.data() + r.begin, r.size());
     mend_end({line, false}, kernels.sigma, places);

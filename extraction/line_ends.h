@@ -15,6 +15,6 @@ namespace lightstripe {
 /// Points whose strength has fallen against that further in are the less sure the more it fell. Each is
 /// joined with the continuation of the line from further in (a parabola), weighted by what both are sure of;
 /// sigma_px follows. `places` is scratch memory.
-void mend_line_ends(const DerivativeKernels& kernels, LineSet& lines, std::vector<FitPoint>& places);
+void mend_line_ends(const DerivativeKernels& kernels, LineSet& lines, std::vector<LocalFitPoint>& places);
 
 }  // namespace lightstripe

@@ -43,7 +43,7 @@ void LocalFitter::start(std::size_t i, std::size_t reach) {
   origin_x_ = points_[i].x;
   origin_y_ = points_[i].y;
   for (std::size_t m = 0; m <= 2 * reach; ++m) {
-    const FitPoint& p = points_[i - reach + m];
+    const LocalFitPoint& p = points_[i - reach + m];
     const double k = static_cast<double>(m) - static_cast<double>(reach);
     x_.add(k, p.x - origin_x_);
     y_.add(k, p.y - origin_y_);
@@ -54,7 +54,7 @@ void LocalFitter::start(std::size_t i, std::size_t reach) {
 void LocalFitter::slide_to(std::size_t i) {
   const auto l = static_cast<double>(reach_);
   for (; last_ < i; ++last_, ++slides_) {
-    const FitPoint &left = points_[last_ - reach_], &right = points_[last_ + 1 + reach_];
+    const LocalFitPoint &left = points_[last_ - reach_], &right = points_[last_ + 1 + reach_];
     x_.slide(left.x - origin_x_, right.x - origin_x_, l);
     y_.slide(left.y - origin_y_, right.y - origin_y_, l);
   }

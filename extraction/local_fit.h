@@ -12,7 +12,7 @@
 
 namespace lightstripe {
 
-struct FitPoint {
+struct LocalFitPoint {
   double x = 0, y = 0;  ///< px
 };
 
@@ -37,7 +37,7 @@ double local_fit_variance(std::size_t reach, double offset);
 /// Sums that slide along a line. Windows must lie inside `points`.
 class LocalFitter {
  public:
-  explicit LocalFitter(std::span<const FitPoint> points) : points_(points) {}
+  explicit LocalFitter(std::span<const LocalFitPoint> points) : points_(points) {}
   /// The fit around point i; costs little where i follows the last i closely, at the same reach.
   LocalFit at(std::size_t i, std::size_t reach);
 
@@ -63,7 +63,7 @@ class LocalFitter {
   void start(std::size_t i, std::size_t reach);
   void slide_to(std::size_t i);
 
-  std::span<const FitPoint> points_;
+  std::span<const LocalFitPoint> points_;
   std::size_t last_ = 0, reach_ = 0;  ///< reach_ = 0: no window yet
   std::size_t slides_ = 0;
   double origin_x_ = 0, origin_y_ = 0;  ///< subtracted, so that the sums keep their digits

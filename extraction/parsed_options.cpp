@@ -60,9 +60,11 @@ std::optional<PixelPlace> parse_start(const std::string& text) {
 }
 
 void require(bool ok, const char* option, double value, const char* rule) {
-  if (!ok)
-    throw Error(option, "the value " + std::to_string(value) + " is out of range",
-                std::string("give ") + rule);
+  if (ok) return;
+  std::array<char, 32> digits{};
+  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
+  throw Error(option, "the value " + std::string(digits.data(), end) + " is out of range",
+              std::string("give ") + rule);
 }
 
 void check_numbers(const ExtractionOptions& o) {

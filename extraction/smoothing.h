@@ -21,7 +21,7 @@ struct SmoothingWorkspace {
   };
   std::vector<Estimate> current, wider;
   std::vector<double> misfit;  ///< running sums of squared differences over their expectation
-  std::vector<FitPoint> places;
+  std::vector<LocalFitPoint> places;
 };
 
 /// Each point moves to the least-squares parabola through its neighbours along the line. The window grows by

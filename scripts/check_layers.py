@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The lightstripe authors
 # SPDX-License-Identifier: Apache-2.0
-"""Checks who includes whom: the table of docs/architecture.md, and heavy libraries at their edge.
+"""Checks who includes whom: the table of docs/architecture.md, and heavy libraries at their edge; and that no two headers
+define a type of one name: a program that links both would mix them up without a word (one definition rule).
 
-usage: check_layers.py ROOT; prints file:line for every forbidden include, exit code 1 if there is one.
+usage: check_layers.py ROOT; prints file:line for every complaint, exit code 1 if there is one.
 """
 import pathlib
 import re
@@ -35,6 +36,7 @@ LIBRARY_IN = {
 }
 # the direction-guided core needs the standard library and Highway only
 NO_OPENCV_FILES = re.compile(r"extraction/(direction_guided|kernels|thresholds|line_point|point_)")
+TYPE = re.compile(r"^(?:struct|class|enum class) (\w+)(?: final)?(?:\s*:[^{;]*)?\s*\{", re.MULTILINE)
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
 
 
@@ -65,8 +67,21 @@ def complaints(root):
                 yield f"{relative}:{number}: the direction-guided core may not use {name}"
 
 
+def types_defined_twice(root):
+    defined_in = {}
+    for path in sorted(root.rglob("*.h")):
+        relative = path.relative_to(root)
+        if len(relative.parts) < 2 or folder_of(relative) not in MAY_INCLUDE:
+            continue
+        for match in TYPE.finditer(path.read_text(encoding="utf-8")):
+            first = defined_in.setdefault(match.group(1), relative)
+            if first != relative:
+                yield f"{relative}: {match.group(1)} is defined in {first} too; give one of them another name"
+
+
 def main():
-    found = list(complaints(pathlib.Path(sys.argv[1])))
+    root = pathlib.Path(sys.argv[1])
+    found = list(complaints(root)) + list(types_defined_twice(root))
     print("\n".join(found) if found else "layers: clean")
     return 1 if found else 0
 

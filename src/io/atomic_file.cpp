@@ -68,7 +68,7 @@ fs::path create_beside(const fs::path& path) {
     const Descriptor created(::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
     if (created.get() >= 0) return temporary;
     if (errno != EEXIST || attempt == 10000)
-      throw Error(path.string(), fmt::format("cannot be written ({})", reason(errno)), "name another place");
+      cannot_write(path, errno);
   }
 }
 
@@ -98,17 +98,23 @@ void AtomicFile::commit() {
   std::error_code error;
   fs::rename(temporary_, path_, error);
   if (error)
-    throw Error(path_.string(), fmt::format("cannot be written ({})", error.message()), "name another place");
+    cannot_write(path_, error.value());
   committed_ = true;
+}
+
+void cannot_write(const fs::path& path, int error_number) {
+  const char* what_to_do = "name another place";
+  if (error_number == ENOSPC || error_number == EDQUOT || error_number == EFBIG)
+    what_to_do = "free some space";
+  else if (error_number == EACCES || error_number == EROFS)
+    what_to_do = "get the right to write there, or name another place";
+  throw Error(path.string(), fmt::format("cannot be written ({})", reason(error_number)), what_to_do);
 }
 
 void write_file(const fs::path& path, std::string_view text) {
   AtomicFile file(path);
   Descriptor out(::open(file.temporary().c_str(), O_WRONLY | O_TRUNC | O_CLOEXEC));
-  const auto give_up = [&path] {
-    throw Error(path.string(), fmt::format("cannot be written ({})", reason(errno)),
-                errno == ENOSPC ? "free some space" : "name another place");
-  };
+  const auto give_up = [&path] { cannot_write(path, errno); };
   if (out.get() < 0) give_up();
   while (!text.empty()) {
     const ssize_t written = ::write(out.get(), text.data(), text.size());
@@ -122,7 +128,8 @@ void write_file(const fs::path& path, std::string_view text) {
 
 std::string read_file(const fs::path& path, std::size_t limit) {
   const auto give_up = [&path](int error_number) {
-    throw Error(path.string(), fmt::format("cannot be read ({})", reason(error_number)), "check the path");
+    throw Error(path.string(), fmt::format("cannot be read ({})", reason(error_number)),
+                error_number == EACCES ? "get the right to read it, e.g. by chmod +r" : "check the path");
   };
   const Descriptor in(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
   if (in.get() < 0) give_up(errno);

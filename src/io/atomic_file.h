@@ -30,6 +30,9 @@ class AtomicFile {
   bool committed_ = false;
 };
 
+/// The Error for an errno of writing: full disks and permissions each with what helps.
+[[noreturn]] void cannot_write(const std::filesystem::path& path, int error_number);
+
 /// The whole text at once.
 void write_file(const std::filesystem::path& path, std::string_view text);
 

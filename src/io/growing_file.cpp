@@ -13,18 +13,13 @@
 #include <vector>
 
 #include "core/error.h"
+#include "io/atomic_file.h"
 #include "io/crc32.h"
 
 namespace lightstripe {
 namespace {
 
 namespace fs = std::filesystem;
-
-[[noreturn]] void cannot_write(const fs::path& path, int error_number) {
-  throw Error(path.string(),
-              fmt::format("cannot be written ({})", std::generic_category().message(error_number)),
-              error_number == ENOSPC ? "free some space" : "name another place");
-}
 
 bool is_device(const fs::path& path) {
   std::error_code error;

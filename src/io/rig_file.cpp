@@ -26,7 +26,7 @@ struct Place {
   }
   template <class T>
   const T& given(const std::optional<T>& value) const {
-    require(value.has_value(), "is missing", "give it");
+    require(value.has_value(), "is missing", "complete the file, or make it anew by lightstripe calibrate");
     return *value;
   }
 };
@@ -100,8 +100,8 @@ Sensor checked_sensor(const RigSensorFields& fields, const Place& place) {
   if (fields.depth_range) {
     sensor.depth_range_mm = *fields.depth_range;
     (place / "depth_range")
-        .require(sensor.depth_range_mm[0] >= 0 && sensor.depth_range_mm[1] > sensor.depth_range_mm[0], "is no range",
-                 "give the nearest and the farthest depth in mm");
+        .require(sensor.depth_range_mm[0] >= 0 && sensor.depth_range_mm[1] > sensor.depth_range_mm[0],
+                 "is no range", "give the nearest and the farthest depth in mm");
   }
   return sensor;
 }

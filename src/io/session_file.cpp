@@ -113,8 +113,8 @@ struct Checker {
     if (!holds) throw Error(file + ": " + key, what_is_wrong, what_to_do);
   }
   template <class T>
-  T given(const std::optional<T>& value, const std::string& key) const {
-    require(value.has_value(), key, "is missing", "give it");
+  T given(const std::optional<T>& value, const std::string& key, const std::string& example = "") const {
+    require(value.has_value(), key, "is missing", example.empty() ? "give it" : "give it, e.g. " + example);
     return *value;
   }
   std::string text(const std::optional<std::string>& value, const std::string& key) const {
@@ -124,19 +124,22 @@ struct Checker {
 };
 
 Target checked_target(const std::optional<TargetFields>& fields, const Checker& check) {
-  const TargetFields given = check.given(fields, "target");
-  const auto [columns, rows] = check.given(given.inner_corners, "target.inner_corners");
+  const TargetFields given =
+      check.given(fields, "target", "target: {type: checkerboard, inner_corners: [11, 8], square: 10.0}");
+  const auto [columns, rows] = check.given(given.inner_corners, "target.inner_corners",
+                                           "inner_corners: [11, 8] for a board of 12 x 9 squares");
   for (const int corners : {columns, rows}) {
     check.require(
         corners >= 2 && corners <= kMaxCorners, "target.inner_corners", "is out of range",
         "count the corners between the squares along each side, 2 to " + std::to_string(kMaxCorners));
   }
-  const SquareSize square = check.given(given.square, "target.square");
+  const SquareSize square = check.given(given.square, "target.square", "square: 10.0 for 10 mm");
   check.require(square.x > 0 && square.y > 0, "target.square", "is not positive",
                 "give the side of a square in mm");
   Target target{given.type, columns, rows, square.x, square.y};
   if (given.type == TargetType::kCheckerboard) {
-    check.require(!given.marker && !given.dictionary, "target", "has marker or dictionary, which a checkerboard has not",
+    check.require(!given.marker && !given.dictionary, "target",
+                  "has marker or dictionary, which a checkerboard has not",
                   "say type: charuco, or leave them out");
     return target;
   }

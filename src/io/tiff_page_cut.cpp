@@ -191,7 +191,7 @@ std::string cut_tiff_page(const ReadAt& read, const TiffLayout& layout, std::uin
   const std::uint64_t directory_at = dialect.header_size() + pixels.size();
   std::string page = layout.big_endian ? "MM" : "II";
   dialect.append(page, layout.big_tiff ? 43 : 42, 2);
-  for (const std::uint64_t constant : {8, 0})  // size of an offset, always 0
+  for (const std::uint64_t constant : {std::uint64_t{8}, std::uint64_t{0}})  // size of an offset, always 0
     if (layout.big_tiff) dialect.append(page, constant, 2);
   dialect.append(page, directory_at, dialect.offset_size());
   return page + pixels + directory_text(dialect, entries, directory_at);

@@ -118,18 +118,48 @@ void check_repeated_keys(const YamlNode& node, const YamlPlace& place) {
   }
 }
 
-[[noreturn]] void fail_syntax(const YamlPlace& place, const YAML::Exception& error) {
+/// Whether the line (from 1) is indented by a tab.
+bool is_indented_by_tab(const std::string& text, int line) {
+  std::istringstream lines(text);
+  std::string found;
+  for (int i = 0; i < line; ++i) std::getline(lines, found);
+  const std::size_t first = found.find_first_not_of(' ');
+  return first != std::string::npos && found[first] == '\t';
+}
+
+[[noreturn]] void fail_syntax(const YamlPlace& place, const std::string& text, const YAML::Exception& error) {
   const bool looks_like_pattern = error.msg.find("alias") != std::string::npos ||
                                   error.msg.find("referenced anchor") != std::string::npos;
-  fail_at(place, line_of(error.mark), "is not valid YAML (" + error.msg + ")",
-          looks_like_pattern ? "put a text that begins with * in quotes" : kCheckSyntax);
+  const int line = line_of(error.mark);
+  const char* what_to_do = kCheckSyntax;
+  if (looks_like_pattern) what_to_do = "put a text that begins with * in quotes";
+  if (is_indented_by_tab(text, line)) what_to_do = "indent by blanks, not by tabs";
+  fail_at(place, line, "is not valid YAML (" + error.msg + ")", what_to_do);
+}
+
+/// RFC 3629: lead bytes with their number of continuation bytes; overlong forms and surrogates pass, they do
+/// no harm.
+bool is_utf8(const std::string& text) {
+  int expected = 0;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    const bool continues = (byte & 0xC0) == 0x80;
+    if (continues != (expected > 0)) return false;
+    if (continues)
+      --expected;
+    else if (byte >= 0xF8)
+      return false;
+    else
+      expected = byte >= 0xF0 ? 3 : byte >= 0xE0 ? 2 : byte >= 0xC0 ? 1 : 0;
+  }
+  return expected == 0;
 }
 
 }  // namespace
 
 YamlNode parse_yaml(const std::string& text, const YamlPlace& place) {
-  if (text.find('\0') != std::string::npos)
-    fail_at(place, 0, "is not a text file in UTF-8", "check the path");
+  if (text.find('\0') != std::string::npos || !is_utf8(text))
+    fail_at(place, 0, "is not a text file in UTF-8", "check the path, or save it as UTF-8");
   TreeBuilder tree, beyond;
   try {
     std::istringstream stream(text);
@@ -138,7 +168,7 @@ YamlNode parse_yaml(const std::string& text, const YamlPlace& place) {
       fail_at(place, 0, "is empty", "fill it in, see configs/ for examples");
     if (parser.HandleNextDocument(beyond)) fail_at(place, 0, "holds more than one YAML document", "keep one");
   } catch (const YAML::Exception& error) {
-    fail_syntax(place, error);
+    fail_syntax(place, text, error);
   } catch (const Refusal& refusal) {
     fail_at(place, refusal.line, refusal.what_is_wrong, refusal.what_to_do);
   }

@@ -50,13 +50,17 @@ struct CommandResult {
 
 inline std::string quoted(const std::filesystem::path& path) { return "'" + path.string() + "'"; }
 
-/// `arguments` as one would type them after `lightstripe`.
-inline CommandResult run_lightstripe(const std::string& arguments) {
+/// A line for the shell.
+inline CommandResult run_shell(const std::string& line) {
   const TemporaryFolder folder;
-  const std::string command = std::string(LIGHTSTRIPE_BINARY) + " " + arguments + " >" + quoted(folder / "out") + " 2>" +
-                              quoted(folder / "err");
+  const std::string command = "(" + line + ") >" + quoted(folder / "out") + " 2>" + quoted(folder / "err");
   const int status = std::system(command.c_str());  // NOLINT(cert-env33-c): the shell is what is tested
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(folder / "out"), text_of(folder / "err")};
+}
+
+/// `arguments` as one would type them after `lightstripe`.
+inline CommandResult run_lightstripe(const std::string& arguments) {
+  return run_shell(std::string(LIGHTSTRIPE_BINARY) + " " + arguments);
 }
 
 }  // namespace lightstripe

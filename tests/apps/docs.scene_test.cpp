@@ -49,8 +49,8 @@ TEST(Docs, CommandsRunAsTheyStand) {
   const TemporaryFolder folder;
   prepare_own_rig(folder);
   for (const auto& page : pages()) expect_commands_run(page, folder);
-  for (const std::string file :
-       {"rig.yaml", "cloud.ply", "profiles.csv", "rehearsal/cloud.ply", "given.csv", "overlay/frame.png"})
+  for (const std::string file : {"rig.yaml", "cloud.ply", "profiles.csv", "rehearsal/cloud.ply", "given.csv",
+                                 "overlay/frame.png", "verify.csv", "wheel.csv", "wheel.html"})
     EXPECT_TRUE(fs::exists(folder / file)) << file;
 }
 
@@ -60,6 +60,35 @@ TEST(Docs, ScriptsThatPagesNameAreThere) {
     const std::string text = text_of(page);
     for (std::sregex_iterator it(text.begin(), text.end(), script), end; it != end; ++it)
       EXPECT_TRUE(fs::exists(kSource / (*it)[1].str())) << page << ": " << (*it)[1];
+  }
+}
+
+TEST(Docs, TheMethodsFunctionsStandInTheFilesThatItNames) {
+  const std::regex row(R"(\| .+ \| `([a-z_/.]+)` \| `(\w+)` \|)");
+  int rows = 0;
+  for (const auto& line : lines_of(text_of(kSource / "docs/method.md"))) {
+    std::smatch match;
+    if (!std::regex_match(line, match, row)) continue;
+    ++rows;
+    EXPECT_TRUE(fs::exists(kSource / match[1].str())) << line;
+    const std::string code = text_of(kSource / match[1].str());
+    EXPECT_TRUE(std::regex_search(code, std::regex("\\b" + match[2].str() + "(\\(| final)"))) << line;
+  }
+  EXPECT_GE(rows, 30);
+}
+
+TEST(Docs, TheFilesThatTheMethodNamesAreInTheFolderOfTheirSection) {
+  const std::regex heading(R"(## .*\(`([a-z]+/)`\))"), file(R"(`([a-z_0-9/]+\.(?:cpp|h))`)");
+  fs::path folder;
+  for (const auto& line : lines_of(text_of(kSource / "docs/method.md"))) {
+    if (std::smatch match; line.starts_with("## "))
+      folder = std::regex_match(line, match, heading) ? match[1].str() : "";
+    for (std::sregex_iterator it(line.begin(), line.end(), file), end; it != end; ++it) {
+      const std::string name = (*it)[1];
+      EXPECT_TRUE(
+          fs::exists(kSource / (name.find('/') == std::string::npos ? folder / name : fs::path(name))))
+          << name;
+    }
   }
 }
 

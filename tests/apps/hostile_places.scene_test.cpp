@@ -4,6 +4,7 @@
 // gone.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/mount.h>
 
 #include <algorithm>
 
@@ -74,6 +75,47 @@ TEST_F(HostilePlaces, AFullDiskIsAnErrorThatNamesTheFile) {
   expect_one_error(run_lightstripe("reconstruct " + quoted(scan()) + " --rig " + quoted(rig()) + " -o " +
                                    quoted(out_ / "cloud.ply")),
                    "/dev/full");
+}
+
+/// A disk of 40 kB, where this user may mount one.
+class SmallDisk {
+ public:
+  explicit SmallDisk(fs::path folder) : folder_(std::move(folder)) {
+    fs::create_directories(folder_);
+    mounted_ = mount("tmpfs", folder_.c_str(), "tmpfs", 0, "size=40k") == 0;
+  }
+  ~SmallDisk() {
+    if (mounted_) umount(folder_.c_str());
+  }
+  SmallDisk(const SmallDisk&) = delete;
+  SmallDisk& operator=(const SmallDisk&) = delete;
+  bool mounted() const { return mounted_; }
+  fs::path operator/(const std::string& name) const { return folder_ / name; }
+  int files() const {
+    int count = 0;
+    for (const auto& entry : fs::recursive_directory_iterator(folder_)) count += int(entry.is_regular_file());
+    return count;
+  }
+
+ private:
+  fs::path folder_;
+  bool mounted_ = false;
+};
+
+TEST_F(HostilePlaces, ADiskThatFillsUpLeavesNoHalfFile) {
+  const SmallDisk disk(out_ / "disk");
+  if (!disk.mounted()) GTEST_SKIP() << "this user may not mount a tmpfs";
+  const std::string scanned = "reconstruct --quiet " + quoted(scan()) + " --rig " + quoted(rig()) + " -o ";
+  for (const std::string& command :
+       {scanned + quoted(disk / "c.ply") + " --profiles " + quoted(disk / "p.csv"),
+        "extract --quiet " + quoted(data() / "scan/solo/0001.png") + " --overlay " +
+            quoted(disk / "overlay") + " -o " + quoted(out_ / "s.csv"),
+        "calibrate --quiet " + quoted(data() / "calibration.yaml") + " --report " + quoted(disk / "r.html") +
+            " -o " + quoted(disk / "rig.yaml"),
+        "simulate --quiet testdata/one_sensor.yaml -o " + quoted(disk / "simulated")}) {
+    expect_one_error(run_lightstripe(command), "(No space left on device); free some space");
+    EXPECT_EQ(disk.files(), 0) << command;
+  }
 }
 
 TEST_F(HostilePlaces, AFolderThatCannotBeWrittenIsAnError) {

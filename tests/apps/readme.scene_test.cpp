@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <regex>
 #include <vector>
 
@@ -24,7 +25,8 @@ std::vector<std::pair<std::string, double>> table_rows(const std::string& text) 
   std::vector<std::pair<std::string, double>> rows;
   const std::regex row(R"(\| (.*?) +\| +([0-9.]+) (?:mm|deg|%) \|)");
   for (const auto& line : lines_of(text))
-    if (std::smatch match; std::regex_match(line, match, row)) rows.emplace_back(match[1], std::stod(match[2]));
+    if (std::smatch match; std::regex_match(line, match, row))
+      rows.emplace_back(match[1], std::stod(match[2]));
   return rows;
 }
 
@@ -43,7 +45,8 @@ TEST(Readme, BeginsWithExactlyTwoCommandsThatAreInTheTree) {
   EXPECT_EQ(commands[0], "scripts/demo");
   EXPECT_EQ(commands[1], "scripts/test");
   for (const auto& script : {commands[0], commands[1]})
-    EXPECT_EQ(fs::status(fs::path(LIGHTSTRIPE_SOURCE_DIR) / script).permissions() & fs::perms::owner_exec, fs::perms::owner_exec);
+    EXPECT_EQ(fs::status(fs::path(LIGHTSTRIPE_SOURCE_DIR) / script).permissions() & fs::perms::owner_exec,
+              fs::perms::owner_exec);
 }
 
 TEST(Readme, LinksLeadToFiles) { expect_links_lead_to_files(LIGHTSTRIPE_SOURCE_DIR "/README.md"); }
@@ -52,12 +55,13 @@ TEST(Readme, CommandsForTheOwnRigRunAsTheyStand) {
   const TemporaryFolder folder;
   prepare_own_rig(folder);
   expect_commands_run(LIGHTSTRIPE_SOURCE_DIR "/README.md", folder);
-  for (const std::string file : {"rig.yaml", "cloud.ply", "profiles.csv", "cloud.png", "stripes.csv", "overlay/frame.png"})
+  for (const std::string file :
+       {"rig.yaml", "cloud.ply", "profiles.csv", "cloud.png", "stripes.csv", "overlay/frame.png"})
     EXPECT_TRUE(fs::exists(folder / file)) << file;
 }
 
-/// The project's goals for the demo's scene. The place of a section is known only to about 0.4 mm by the physics of 20 boards,
-/// of a plane and of a sensor likewise (docs/method.md): three sigma.
+/// The project's goals for the demo's scene. The place of a section is known only to about 0.4 mm by the
+/// physics of 20 boards, of a plane and of a sensor likewise (docs/method.md): three sigma.
 double largest_error_allowed(const std::string& what) {
   if (what.find("direction") != std::string::npos) return 0.08;      // deg
   if (what.find("shape") != std::string::npos) return 0.03;          // mm
@@ -66,7 +70,8 @@ double largest_error_allowed(const std::string& what) {
   return 1.2;                                                        // mm
 }
 
-// The demo is the project's figure scene: its numbers meet the goals, and the README's table is that of this run.
+// The demo is the project's figure scene: its numbers meet the goals, and the README's table is that of this
+// run.
 TEST(Demo, MeetsTheFiguresAndTheReadmeTellsThem) {
   const TemporaryFolder folder;
   const auto result = run_lightstripe("demo -o " + quoted(folder / "demo"));
@@ -85,17 +90,45 @@ TEST(Demo, MeetsTheFiguresAndTheReadmeTellsThem) {
   for (std::size_t i = 0; i < rows.size(); ++i) {
     EXPECT_EQ(told[i].first, rows[i].first);
     // Another processor may round otherwise: the last digits may differ, the statement may not.
-    EXPECT_NEAR(told[i].second, rows[i].second, 0.1 * rows[i].second + 0.002) << told[i].first << ": run scripts/update_readme";
+    EXPECT_NEAR(told[i].second, rows[i].second, 0.1 * rows[i].second + 0.002)
+        << told[i].first << ": run scripts/update_readme";
   }
-  for (const std::string file : {"cloud.ply", "cloud.png", "rig.yaml", "profiles.csv", "overlay/gauge.png", "overlay/field.png"})
+  for (const std::string file :
+       {"cloud.ply", "cloud.png", "rig.yaml", "profiles.csv", "overlay/gauge.png", "overlay/field.png"})
     EXPECT_TRUE(fs::exists(folder / "demo" / file)) << file;
 }
 
-TEST(Configs, TheCommentedExamplesAreRead) {
-  const Session session = read_session(LIGHTSTRIPE_SOURCE_DIR "/configs/calibration.yaml");
-  EXPECT_EQ(session.sensors.size(), 2U);
-  EXPECT_TRUE(session.motion.has_value());
-  EXPECT_EQ(read_scan(LIGHTSTRIPE_SOURCE_DIR "/configs/scan.yaml").frames.size(), 2U);
+TEST(Readme, ReachesTheFirstCloudOfOwnPicturesInFiveCommands) {
+  const auto commands = commands_of(between(readme(), "## Your own rig", "- Before: "));
+  ASSERT_EQ(commands.size(), 5U);
+  EXPECT_THAT(commands.front(), HasSubstr("git clone"));
+  EXPECT_THAT(commands.back(), HasSubstr("-o cloud.ply"));
+}
+
+/// A session and a scan that belong together: the scan's frames name sensors of the session.
+void expect_examples_fit(const fs::path& calibration, const fs::path& scan_file,
+                         std::optional<MotionType> motion, TravelSource travel) {
+  const Session session = read_session(calibration);
+  const Scan scan = read_scan(scan_file);
+  EXPECT_EQ(session.motion ? std::optional(session.motion->type) : std::nullopt, motion) << calibration;
+  EXPECT_EQ(scan.travel, travel) << scan_file;
+  ASSERT_EQ(scan.frames.size(), session.sensors.size()) << scan_file;
+  for (std::size_t i = 0; i < scan.frames.size(); ++i)
+    EXPECT_EQ(scan.frames[i].first, session.sensors[i].name);
+}
+
+TEST(Configs, TheCommentedExamplesOfEachKindOfRigAreReadAndFitTogether) {
+  const fs::path configs = LIGHTSTRIPE_SOURCE_DIR "/configs", rigs = configs / "rigs";
+  expect_examples_fit(configs / "calibration.yaml", configs / "scan.yaml", MotionType::kLinear,
+                      TravelSource::kFile);
+  expect_examples_fit(rigs / "stage/calibration.yaml", rigs / "stage/scan.yaml", MotionType::kLinear,
+                      TravelSource::kStep);
+  expect_examples_fit(rigs / "wheel/calibration.yaml", rigs / "wheel/scan.yaml", MotionType::kRotary,
+                      TravelSource::kFile);
+  expect_examples_fit(rigs / "robot/calibration.yaml", rigs / "robot/scan.yaml", std::nullopt,
+                      TravelSource::kPoses);
+  EXPECT_EQ(std::distance(fs::directory_iterator(rigs), fs::directory_iterator()), 3)
+      << "an example without a test";
 }
 
 }  // namespace

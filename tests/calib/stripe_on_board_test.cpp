@@ -110,7 +110,7 @@ TEST(SelectStripes, OrdersSeveralLinesFromLeftToRight) {
 TEST(SelectStripes, SaysWhatIsMissing) {
   const Rigid3 pose = board_pose(kBoard, {0, 0, 550}, 10, 20, 5);
   const auto corners = true_corners(kCamera, kBoard, pose);
-  EXPECT_THAT(select_stripes({}, corners, kBoard, 1).reason, HasSubstr("no straight stripe on the board"));
+  EXPECT_THAT(select_stripes({}, corners, kBoard, 1).reason, HasSubstr("no light on the board"));
   const auto one = as_stripe(testing::seen_stripe(kBoard, kUpright, pose, 1));
   EXPECT_THAT(select_stripes({one}, corners, kBoard, 2).reason, HasSubstr("1 of 2 stripes"));
   auto wide = one;

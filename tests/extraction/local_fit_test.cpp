@@ -13,7 +13,7 @@ namespace lightstripe {
 namespace {
 
 TEST(LocalFit, GivesAParabolaBackExactly) {
-  std::vector<FitPoint> points;
+  std::vector<LocalFitPoint> points;
   for (int k = 0; k < 60; ++k) points.push_back({1000.0 + k, 500 + 0.3 * k + 0.01 * k * k});
   LocalFitter fitter(points);
   for (std::size_t i = 7; i < 53; ++i) {
@@ -31,7 +31,7 @@ TEST(LocalFit, GivesAParabolaBackExactly) {
 
 TEST(LocalFit, SlidingSumsAgreeWithFreshOnes) {
   Random random(3);
-  std::vector<FitPoint> points;
+  std::vector<LocalFitPoint> points;
   for (int k = 0; k < 400; ++k) points.push_back({3000 + 1.0 * k, 2000 + 5 * random.gaussian()});
   LocalFitter sliding(points);
   for (std::size_t i = 12; i < 388; i += 1 + i % 3) {
@@ -48,7 +48,7 @@ TEST(LocalFit, GainsAreTheScatterOfFits) {
   double centre = 0, curvature = 0, beyond = 0;
   constexpr int kTrials = 4000;  // 1 sigma of a ratio: 1.1 %
   for (int trial = 0; trial < kTrials; ++trial) {
-    std::vector<FitPoint> points;
+    std::vector<LocalFitPoint> points;
     for (std::size_t k = 0; k <= 2 * reach; ++k)
       points.push_back({static_cast<double>(k), random.gaussian()});
     LocalFitter fitter(points);
