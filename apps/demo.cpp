@@ -137,11 +137,12 @@ int run_demo(const std::string& scene_file, bool wheel, const CommonOptions& com
           "\n{} points from {} frames of {} sensors, {:.0f} frames/s with {} threads (PNG decoding included)",
           outcome.summary.points, outcome.summary.frames, rig.sensors.size(),
           static_cast<double>(outcome.summary.frames) / outcome.seconds, thread_count(common)));
-  say(common, fmt::format("\ncloud      {0}/cloud.ply (picture: {0}/cloud.png)\nsections   {0}/profiles.csv\n"
-                          "{1}overlays   {0}/overlay/*.png\nrig        {0}/rig.yaml (report: {0}/calibration.html)\n"
-                          "truth      {0}/truth/",
-                          folder.string(),
-                          wear ? "measured   " + (folder / "measurements.csv").string() + "\n" : ""));
+  say(common,
+      fmt::format("\ncloud      {0}/cloud.ply (picture: {0}/cloud.png)\nsections   {0}/profiles.csv\n"
+                  "{1}overlays   {0}/overlay/*.png\nrig        {0}/rig.yaml (report: {0}/calibration.html)\n"
+                  "truth      {0}/truth/",
+                  folder.string(),
+                  wear ? "measured   " + (folder / "measurements.csv").string() + "\n" : ""));
   return kExitDone;
 }
 
