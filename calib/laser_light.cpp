@@ -86,7 +86,8 @@ Image8 laser_light(ImageView8 laser, ImageView8 board) {
   Image8 light(laser.width, laser.height);
   for (int y = 0; y < laser.height; ++y)
     for (int x = 0; x < laser.width; ++x)
-      light(x, y) = static_cast<std::uint8_t>(std::clamp(laser(x, y) - ambient[board(x, y)] + kDarkLevel, 0, 255));
+      light(x, y) =
+          static_cast<std::uint8_t>(std::clamp(laser(x, y) - ambient[board(x, y)] + kDarkLevel, 0, 255));
   return light;
 }
 

@@ -39,13 +39,29 @@ std::vector<cv::Point3f> cv_board(const Target& target, const std::vector<Eigen:
   return points;
 }
 
+/// The value to 20 bits: enough for a start. OpenCV solves by LAPACK, whose last bits depend on where in
+/// memory its matrices happen to lie, that is on the run; what follows must not.
+double rounded(double value) {
+  int exponent = 0;
+  const double mantissa = std::frexp(value, &exponent);
+  return std::ldexp(std::round(std::ldexp(mantissa, 20)), exponent - 20);
+}
+
+double rounded(const cv::Mat& values, int i) { return rounded(values.at<double>(i)); }
+
+Rigid3 rounded(const Rigid3& pose) {
+  const Eigen::Vector4d q = pose.rotation.coeffs().unaryExpr([](double v) { return rounded(v); });
+  return {Eigen::Quaterniond(q).normalized(),
+          pose.translation.unaryExpr([](double v) { return rounded(v); })};
+}
+
 Rigid3 rigid(const cv::Mat& rotation_vector, const cv::Mat& translation) {
-  const Eigen::Vector3d r(rotation_vector.at<double>(0), rotation_vector.at<double>(1),
-                          rotation_vector.at<double>(2));
+  const Eigen::Vector3d r(rounded(rotation_vector, 0), rounded(rotation_vector, 1),
+                          rounded(rotation_vector, 2));
   const double angle = r.norm();
   Rigid3 result;
   if (angle > 0) result.rotation = Eigen::AngleAxisd(angle, r / angle);
-  result.translation = {translation.at<double>(0), translation.at<double>(1), translation.at<double>(2)};
+  result.translation = {rounded(translation, 0), rounded(translation, 1), rounded(translation, 2)};
   return result;
 }
 
@@ -137,9 +153,9 @@ CameraStart calibrate_camera(const std::vector<const ViewMeasurement*>& views, c
                     "different sides and check the number of corners and the pitch",
                     sensor, views.size()));
   CameraStart start;
-  start.camera = {
-      size[0], size[1], K.at<double>(0, 0), K.at<double>(1, 1), K.at<double>(0, 2), K.at<double>(1, 2), {}};
-  for (int i = 0; i < 4; ++i) start.camera.distortion[static_cast<std::size_t>(i)] = distortion.at<double>(i);
+  const cv::Mat k = K.reshape(1, 1);
+  start.camera = {size[0], size[1], rounded(k, 0), rounded(k, 4), rounded(k, 2), rounded(k, 5), {}};
+  for (int i = 0; i < 4; ++i) start.camera.distortion[static_cast<std::size_t>(i)] = rounded(distortion, i);
   for (std::size_t i = 0; i < views.size(); ++i) {
     start.cam_from_board.push_back(rigid(rotations[i], translations[i]));
     start.view_rms_px.push_back(per_view.at<double>(static_cast<int>(i)));
@@ -170,7 +186,7 @@ Rigid3 pose_of(const ViewMeasurement& view, const Target& target, const Camera& 
   if (!pose)
     throw NotUsable(view.image +
                     ": no ray of the given camera meets the board; check the camera that is given");
-  return *pose;
+  return rounded(*pose);
 }
 
 }  // namespace

@@ -68,20 +68,6 @@ void refuse_degenerate(const PlaneFit& fit, const std::vector<const StripeInSpac
                     name, fit.plane.offset));
 }
 
-/// A stripe of a few points has a place, but hardly a direction.
-void drop_short_stripes(InitialValues& values, int sensor, std::size_t plane) {
-  for (auto& view : values.measurements.views) {
-    if (view.sensor != sensor || view.pose < 0) continue;
-    auto& stripe = view.stripes[plane];
-    if (!stripe.empty() && stripe.size() < kMinStripePoints)
-      values.warnings.push_back(fmt::format(
-          "{} {}: stripe left out, only {} independent points of it lie clear of the squares' "
-          "edges; larger squares or a thinner line leave more",
-          values.measurements.sensor_names[static_cast<std::size_t>(sensor)], view.image, stripe.size()));
-    if (stripe.size() < kMinStripePoints) stripe.clear();
-  }
-}
-
 Plane start_plane(InitialValues& values, int sensor, std::size_t plane) {
   const auto name = plane_name(values, sensor, plane);
   const auto stripes = stripes_in_space(values, sensor, plane);
@@ -97,7 +83,9 @@ Plane start_plane(InitialValues& values, int sensor, std::size_t plane) {
                     name));
   const PlaneFit fit = plane_through(kept);
   refuse_degenerate(fit, kept, name);
-  drop_short_stripes(values, sensor, plane);
+  for (auto& view : values.measurements.views)
+    if (view.sensor == sensor && view.pose >= 0 && view.stripes[plane].size() < kMinStripePoints)
+      view.stripes[plane].clear();
   for (const auto& stripe : stripes) {
     auto& view = values.measurements.views[stripe.view];
     const bool agrees = std::find(kept.begin(), kept.end(), &stripe) != kept.end();

@@ -10,7 +10,9 @@
 
 #include "calib/board_map.h"
 #include "calib/laser_light.h"
+#include "calib/measurements.h"
 #include "calib/observe_board.h"
+#include "calib/stripe_planes.h"
 #include "core/error.h"
 #include "core/random.h"
 
@@ -210,10 +212,12 @@ StripeOnBoard select_stripes(const std::vector<Stripe>& stripes, const std::vect
     for (const auto& p : take_line(points, chosen))
       if (!near_edge(p.point, p.p_board, map->derivative({p.point.x, p.point.y}), target))
         kept.push_back(p.point);
-    if (kept.empty())
-      result.reason =
-          "all of the stripe lies near edges of the squares; larger squares, or a thinner line, leave some "
-          "of it";
+    if (const auto clear = independent_points(kept).size(); clear < kMinStripePoints)
+      result.reason = fmt::format(
+          "only {} independent points of it lie clear of the squares' edges; larger squares, or a thinner "
+          "line, "
+          "leave more",
+          clear);
     result.planes.push_back(std::move(kept));
   }
   order_lines(result.planes);

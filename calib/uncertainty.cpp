@@ -109,8 +109,7 @@ std::map<std::string, double> parameter_sigmas(const Measurements& measurements,
       sigmas["motion.direction_deg"] =
           total_sigma(adjustment, [](const RigState& s) -> VectorXd { return s.motion->direction; }) /
           kDegree;
-    if (block.kind == Kind::kAxisPoint)
-      sigmas["motion.axis_point_mm"] = axis_sigma_mm(adjustment);
+    if (block.kind == Kind::kAxisPoint) sigmas["motion.axis_point_mm"] = axis_sigma_mm(adjustment);
   }
   return sigmas;
 }

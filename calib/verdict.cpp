@@ -217,9 +217,10 @@ std::vector<std::string> warnings_about(const Measurements& measurements, const 
   constexpr double kBowed_mm = 0.05;
   const Eigen::Vector2d& warp = adjustment.state.board_warp_mm;
   if (warp.cwiseAbs().maxCoeff() > kBowed_mm)
-    warnings.push_back(fmt::format("the board is bowed by {:.2f} mm along x and {:.2f} mm along y; that is taken into "
-                                   "account, a flatter board is surer",
-                                   warp.x(), warp.y()));
+    warnings.push_back(
+        fmt::format("the board is bowed by {:.2f} mm along x and {:.2f} mm along y; that is taken into "
+                    "account, a flatter board is surer",
+                    warp.x(), warp.y()));
   if (measurements.motion == MotionType::kNone)
     warnings.push_back(
         "no motion was calibrated: x is the first laser plane's normal, not the direction of travel");

@@ -38,7 +38,8 @@ TEST(LaserLight, KeepsTheLineWhereTheBoardPictureIsBrighterThanTheLaser) {
   const Pair pair(0.25, 7);
   const Image8 light = laser_light(pair.laser, pair.board);
   for (int y = 0; y < 80; ++y) {
-    EXPECT_NEAR(light(50, y), kDarkLevel + 60, 9) << y;  // 1.5 grey levels of noise, 4 sigma, and the roundings
+    EXPECT_NEAR(light(50, y), kDarkLevel + 60, 9)
+        << y;  // 1.5 grey levels of noise, 4 sigma, and the roundings
     EXPECT_NEAR(light(20, y), kDarkLevel, 8) << y;
   }
 }

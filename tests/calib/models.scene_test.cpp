@@ -85,7 +85,8 @@ TEST(LensModels, AutomaticChoiceIsTheLeanestOfEqualOnes) {
 }
 
 TEST(LensModels, AutomaticChoiceTakesTheRationalTermsThatAWideLensNeeds) {
-  // A pincushion 1 / (1 - r^2 / 2), whose polynomial does not end, over 69 degrees: brown5 leaves clearly more.
+  // A pincushion 1 / (1 - r^2 / 2), whose polynomial does not end, over 69 degrees: brown5 leaves clearly
+  // more.
   auto truth = rig_with({0, 0, 0, 0, 0, -0.5}, 1);
   for (auto& sensor : truth.sensors) sensor.camera.fx = sensor.camera.fy = 700;
   truth.target.pitch_x = truth.target.pitch_y = 50;

@@ -24,8 +24,8 @@ CalibrationOptions brown5() {
   return options;
 }
 
-/// A one-sensor rig whose sheet comes again turned by these angles about the line of sight and shifted by these
-/// distances.
+/// A one-sensor rig whose sheet comes again turned by these angles about the line of sight and shifted by
+/// these distances.
 testing::SyntheticRig rig_with_planes(const std::vector<std::pair<double, double>>& turn_deg_and_shift_mm) {
   auto rig = testing::rail_rig(1, 2);
   const Plane first = rig.sensors[0].laser_planes[0];
@@ -61,7 +61,8 @@ TEST(SeveralPlanes, StripesInAnotherOrderInSomeViews) {
   const auto truth = rig_with_planes({{0, -10}, {0, 10}});
   auto observations = observe(truth, kPerfect);
   for (std::size_t i = 0; i < 4; ++i)
-    std::swap(observations.sensors[0].views[3 * i].stripes[0], observations.sensors[0].views[3 * i].stripes[1]);
+    std::swap(observations.sensors[0].views[3 * i].stripes[0],
+              observations.sensors[0].views[3 * i].stripes[1]);
   const auto result = calibrate_rig(observations, brown5());
   ASSERT_TRUE(result.summary.usable) << result.summary.message;
   expect_planes(result.rig, truth);

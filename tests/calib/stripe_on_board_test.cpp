@@ -115,7 +115,8 @@ TEST(SelectStripes, SaysWhatIsMissing) {
   EXPECT_THAT(select_stripes({one}, corners, kBoard, 2).reason, HasSubstr("1 of 2 stripes"));
   auto wide = one;
   for (auto& point : wide.points) point.width = 40;
-  EXPECT_THAT(select_stripes({wide}, corners, kBoard, 1).reason, HasSubstr("near edges of the squares"));
+  EXPECT_THAT(select_stripes({wide}, corners, kBoard, 1).reason,
+              HasSubstr("only 0 independent points of it lie clear"));
 }
 
 struct Error {
