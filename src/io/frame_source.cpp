@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "core/error.h"
 #include "io/deciding_channel.h"
@@ -40,9 +41,8 @@ bool is_picture_name(const fs::path& path) {
 /// Keeps names, not paths: a long recording has very many.
 class ImageFolder : public FrameSource {
  public:
-  ImageFolder(const std::vector<fs::path>& files, Channel channel) : folder_(files.front().parent_path()) {
-    names_.reserve(files.size());
-    for (const fs::path& file : files) names_.push_back(file.filename().string());
+  ImageFolder(FileNames files, Channel channel)
+      : folder_(std::move(files.folder)), names_(std::move(files.names)) {
     numbers_ = numbers_in_names(names_);
     channel_ =
         channel != Channel::kAuto ? channel : decide_channel(size(), [this](std::int64_t i, Channel* chosen) {
@@ -90,13 +90,14 @@ Channel decide_channel(std::int64_t count, const std::function<void(std::int64_t
 }
 
 std::unique_ptr<FrameSource> open_frames(const fs::path& base, const std::string& pattern, Channel channel) {
-  const std::vector<fs::path> files = list_files(base, pattern);
+  FileNames files = list_file_names(base, pattern);
+  const fs::path first = files.folder / files.names.front();
   const bool one_file = pattern.find_first_of("*?") == std::string::npos;
-  if (one_file && is_tiff_name(files.front())) {
-    if (auto pages = open_tiff_pages(files.front(), channel)) return pages;
+  if (one_file && is_tiff_name(first)) {
+    if (auto pages = open_tiff_pages(first, channel)) return pages;
   }
-  if (one_file && !is_picture_name(files.front())) return open_video(files.front(), channel);
-  return std::make_unique<ImageFolder>(files, channel);
+  if (one_file && !is_picture_name(first)) return open_video(first, channel);
+  return std::make_unique<ImageFolder>(std::move(files), channel);
 }
 
 }  // namespace lightstripe

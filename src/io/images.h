@@ -61,6 +61,13 @@ std::vector<std::uint8_t> encode_jpeg(const std::vector<std::uint8_t>& rgb, int 
 /// (img_2 before img_10), relative to `base` unless absolute. An Error when there is none.
 std::vector<std::filesystem::path> list_files(const std::filesystem::path& base, const std::string& pattern);
 
+/// The same as names in their folder: a path takes five times the memory, which long recordings feel.
+struct FileNames {
+  std::filesystem::path folder;
+  std::vector<std::string> names;
+};
+FileNames list_file_names(const std::filesystem::path& base, const std::string& pattern);
+
 /// The text that the pattern's '*' stands for in this file: pairs images of one board pose ("007").
 std::string matched_text(const std::string& pattern, const std::filesystem::path& file);
 

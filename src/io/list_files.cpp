@@ -43,15 +43,15 @@ bool matches(std::string_view pattern, std::string_view name) {
   return pattern.find_first_not_of('*', p) == std::string_view::npos;
 }
 
-std::vector<fs::path> matching_files(const fs::path& folder, const std::string& pattern) {
-  std::vector<fs::path> found;
+std::vector<std::string> matching_names(const fs::path& folder, const std::string& pattern) {
+  std::vector<std::string> found;
   std::error_code error;
   fs::directory_iterator entry(folder.empty() ? fs::path(".") : folder, error);
   for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
     const std::string name = entry->path().filename().string();
     const bool hidden = name.front() == '.' && pattern.front() != '.';
     std::error_code ignored;
-    if (!hidden && matches(pattern, name) && !entry->is_directory(ignored)) found.push_back(folder / name);
+    if (!hidden && matches(pattern, name) && !entry->is_directory(ignored)) found.push_back(name);
   }
   if (error)
     throw Error(folder.string(), "cannot be read (" + error.message() + ")", "check its permissions");
@@ -83,7 +83,7 @@ bool natural_less(const std::string& a, const std::string& b) {
   return left_a != left_b ? left_a < left_b : a < b;  // "01" and "1": any order, but always the same
 }
 
-std::vector<fs::path> list_files(const fs::path& base, const std::string& pattern) {
+FileNames list_file_names(const fs::path& base, const std::string& pattern) {
   const fs::path whole = base / pattern;
   const fs::path folder = whole.parent_path();
   const std::string name = whole.filename().string();
@@ -95,16 +95,21 @@ std::vector<fs::path> list_files(const fs::path& base, const std::string& patter
     if (fs::is_directory(whole, error))
       throw Error(whole.string(), "is a folder", "say which files, e.g. folder/*.png");
     if (!fs::exists(whole, error)) throw Error(whole.string(), "no such file", "check the path");
-    return {whole};
+    return {folder, {name}};
   }
   if (!folder.empty() && !fs::is_directory(folder, error))
     throw Error(folder.string(), "no such folder", "check the path");
-  std::vector<fs::path> files = matching_files(folder, name);
-  if (files.empty()) throw Error(whole.string(), "no file matches", "check the pattern");
-  std::sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
-    return natural_less(a.filename().string(), b.filename().string());
-  });
+  FileNames files{folder, matching_names(folder, name)};
+  if (files.names.empty()) throw Error(whole.string(), "no file matches", "check the pattern");
+  std::sort(files.names.begin(), files.names.end(), natural_less);
   return files;
+}
+
+std::vector<fs::path> list_files(const fs::path& base, const std::string& pattern) {
+  const FileNames files = list_file_names(base, pattern);
+  std::vector<fs::path> paths;
+  for (const std::string& name : files.names) paths.push_back(files.folder / name);
+  return paths;
 }
 
 std::string matched_text(const std::string& pattern, const fs::path& file) {

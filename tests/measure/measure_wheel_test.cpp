@@ -6,6 +6,7 @@
 
 #include "io/nominal_outlines.h"
 #include "sections.h"
+#include "simulate/worn_wheel.h"
 
 namespace lightstripe {
 namespace {
@@ -64,6 +65,19 @@ TEST_F(MeasureWheel, AHollowTreadIsFound) {
   EXPECT_NEAR(value(wheel.tread_wear), 2 * (1 - 25.0 / 900), 0.01);
   EXPECT_GT(value(wheel.hollow), 0.8);
   EXPECT_LT(value(wheel.hollow), 1.6);
+}
+
+// Against the full S1002: the section's own figures, by the definitions, of the simulator's outline.
+TEST_F(MeasureWheel, AWornOrThinnerFlangeIsMeasuredByItself) {
+  for (const WheelWear wear : {WheelWear{2, 1.5}, WheelWear{4, 0}, WheelWear{8, 3}}) {
+    const Outline worn = worn_wheel(nominal, wear);
+    const WheelDimensions truth = measure_wheel_section(worn);
+    const WheelMeasurement wheel = measured(wheel_section(worn, -30, {.spacing_mm = 0.2, .shift = {3, 8}}));
+    EXPECT_NEAR(value(wheel.flange_height), truth.flange_height, 0.005) << wear.flange_mm;
+    EXPECT_NEAR(value(wheel.flange_thickness), truth.flange_thickness, 0.005) << wear.flange_mm;
+    EXPECT_NEAR(value(wheel.qr), truth.qr, 0.02)
+        << wear.flange_mm;  // parabola over 1.6 mm of a face that bends
+  }
 }
 
 TEST_F(MeasureWheel, WhatIsNotSeenIsUnknown) {
