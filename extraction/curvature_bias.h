@@ -13,7 +13,7 @@ namespace lightstripe {
 
 /// Scratch memory.
 struct BendWorkspace {
-  std::vector<FitPoint> nodes;   ///< one point an evaluation of a stretch
+  std::vector<FitPoint> nodes;   ///< one point in sigma of a stretch
   std::vector<FitPoint> shifts;  ///< px, of each node
 };
 

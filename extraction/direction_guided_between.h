@@ -4,12 +4,17 @@
 // so that a wide stripe need not be evaluated in every column.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "core/stripe.h"
 #include "extraction/direction_guided_ridge.h"
 
 namespace lightstripe {
+
+/// Columns (rows) from one evaluation to the next, about sigma: there the smoothed picture's spectrum has
+/// fallen to exp(-pi^2 / 2) = 0.7 % at the sampling's limit.
+inline int evaluation_stride(double sigma) { return std::clamp(static_cast<int>(sigma), 1, 4); }
 
 /// Appends the `steps` - 1 points between a and b, which lie `steps` columns (rows) apart: a cubic through
 /// both with their directions.
