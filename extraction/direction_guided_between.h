@@ -12,9 +12,13 @@
 
 namespace lightstripe {
 
-/// Columns (rows) from one evaluation to the next, about sigma: there the smoothed picture's spectrum has
-/// fallen to exp(-pi^2 / 2) = 0.7 % at the sampling's limit.
-inline int evaluation_stride(double sigma) { return std::clamp(static_cast<int>(sigma), 1, 4); }
+/// Columns (rows) from one evaluation to the next: sigma, and up to 4/3 sigma from 3 px on. Place and
+/// direction of both ends fix a cubic that is off by h^4 / 384 times the fourth derivative; of noise that was
+/// smoothed over sigma that is 2.6 / sigma^4 of itself: 2 %. Of narrow stripes the gaps and ragged ends are
+/// only a few pixels long.
+inline int evaluation_stride(double sigma) {
+  return std::clamp(static_cast<int>(sigma < 3 ? sigma : 1.334 * sigma), 1, 4);
+}
 
 /// Appends the `steps` - 1 points between a and b, which lie `steps` columns (rows) apart: a cubic through
 /// both with their directions.
