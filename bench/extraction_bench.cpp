@@ -1,14 +1,16 @@
 // SPDX-FileCopyrightText: 2026 The lightstripe authors
 // SPDX-License-Identifier: Apache-2.0
-// Times of the extraction, one thread: the paper's four scenes by every method, image sizes, numbers of
-// lines. Every result is checked against the known lines before it is timed.
+// Times of the extraction, one thread: the paper's four scenes by every method and by OpenCV's building
+// blocks, image sizes, numbers of lines. Every result is checked against the known lines before it is timed.
 #include <benchmark/benchmark.h>
 
 #include <array>
 #include <cmath>
-#include <opencv2/imgproc.hpp>
+#include <cstring>
+#include <opencv2/core/utility.hpp>
 #include <string>
 
+#include "apps/bench_references.h"
 #include "extraction/extract_stripes.h"
 #include "extraction/workspace.h"
 #include "whole_scenes.h"
@@ -79,14 +81,35 @@ void time_extraction(benchmark::State& state, const BenchScene& scene, Extractio
   state.counters["megapixels"] = pixels * 1e-6;
 }
 
-void time_calchist(benchmark::State& state, const BenchScene& scene) {
-  const cv::Mat grey(scene.image.height, scene.image.width, CV_8U,
-                     const_cast<std::uint8_t*>(scene.image.pixels.data()));
-  const int channels[] = {0}, sizes[] = {256};
-  const float range[] = {0, 256};
-  const float* ranges[] = {range};
-  cv::Mat histogram;
-  for (auto _ : state) cv::calcHist(&grey, 1, channels, cv::Mat(), histogram, 1, sizes, ranges);
+/// What OpenCV and memcpy need for the same image: rows to compare with.
+using Reference = void (*)(const BenchScene& scene, Image8& target);
+struct NamedReference {
+  const char* name;
+  Reference run;
+};
+
+/// Half the matched strength of the scenes' dimmest line: all lines and little else.
+void run_opencv_steger(const BenchScene& scene, Image8&) {
+  constexpr double kDimmest = 40;  // grey levels
+  benchmark::DoNotOptimize(
+      steger_by_opencv(scene.image.view(), kSigma, 0.5 * kDimmest / (2.83 * kSigma * kSigma)).data());
+}
+void run_calchist(const BenchScene& scene, Image8&) { calchist_by_opencv(scene.image.view()); }
+void run_gaussianblur(const BenchScene& scene, Image8& target) {
+  gaussianblur_by_opencv(scene.image.view(), kSigma, target);
+}
+void run_memcpy(const BenchScene& scene, Image8& target) {
+  std::memcpy(target.pixels.data(), scene.image.pixels.data(), scene.image.pixels.size());
+  benchmark::ClobberMemory();
+}
+constexpr std::array<NamedReference, 4> kReferences{{{"opencv-steger", run_opencv_steger},
+                                                     {"opencv-calchist", run_calchist},
+                                                     {"opencv-gaussianblur", run_gaussianblur},
+                                                     {"memcpy", run_memcpy}}};
+
+void time_reference(benchmark::State& state, const BenchScene& scene, Reference run) {
+  Image8 target(scene.image.width, scene.image.height);
+  for (auto _ : state) run(scene, target);
 }
 
 void register_scenes() {
@@ -98,8 +121,10 @@ void register_scenes() {
       benchmark::RegisterBenchmark(
           (name + std::string(method_name)).c_str(),
           [scene, m = method](benchmark::State& s) { time_extraction(s, *scene, m); });
-    benchmark::RegisterBenchmark((name + "cv_calchist").c_str(),
-                                 [scene](benchmark::State& s) { time_calchist(s, *scene); });
+    for (const NamedReference& reference : kReferences)
+      benchmark::RegisterBenchmark(
+          (name + reference.name).c_str(),
+          [scene, run = reference.run](benchmark::State& s) { time_reference(s, *scene, run); });
   }
 }
 

@@ -30,7 +30,8 @@ LocalFitPoint shift_of(const LocalFit& fit, double curvature_gain, double sigma,
 
 /// One stretch without gaps and bridges.
 void correct_stretch(std::span<StripePoint> points, double sigma, BendWorkspace& w) {
-  const auto stride = static_cast<std::size_t>(evaluation_stride(sigma));
+  // The bend of a line that was smoothed over sigma changes little within one.
+  const auto stride = static_cast<std::size_t>(std::max(1.0, sigma));
   const auto most = std::max<std::size_t>(
       3, static_cast<std::size_t>(std::lround((3.0 * sigma + 2) / static_cast<double>(stride))));
   w.nodes.clear();

@@ -13,7 +13,7 @@ namespace lightstripe {
 
 /// Scratch memory.
 struct BendWorkspace {
-  std::vector<LocalFitPoint> nodes;   ///< one point an evaluation of a stretch
+  std::vector<LocalFitPoint> nodes;   ///< one point in sigma of a stretch
   std::vector<LocalFitPoint> shifts;  ///< px, of each node
 };
 

@@ -15,7 +15,8 @@ namespace {
 /// No line begins with fewer labels left than a long one uses.
 constexpr std::uint16_t kLastLabel = 60000;
 
-/// Cells of the mask, about as large as the kernel's scale: fine enough for stripes of that scale.
+/// Cells of the mask, about as large as the kernel's scale: fine enough for stripes of that scale, and no
+/// smaller than an evaluation's stride.
 int mask_cell_shift(double sigma) { return sigma < 2 ? 0 : sigma < 3 ? 1 : 2; }
 
 /// First points come from the image itself, or from means of blocks where single pixels are too noisy.

@@ -14,10 +14,9 @@ void append_between(const RidgePlace& a, const RidgePlace& b, int steps, std::ve
   const double c2 = 3 * (end - start) - 2 * c1 - slope_b, c3 = c1 + slope_b - 2 * (end - start);
   const double turn_x = b.direction.x - a.direction.x, turn_y = b.direction.y - a.direction.y;
   const double turn = turn_x * turn_x + turn_y * turn_y, step = 1.0 / steps;
-  const double pixel = span > 0 ? 1.0 : -1.0;
   for (int k = 1; k < steps; ++k) {
     const double u = k * step, v = 1 - u;
-    const double along = from + k * pixel;
+    const double along = from + u * span;  // a need not be whole-numbered where the octant changed
     const double across = start + u * (c1 + u * (c2 + u * c3));
     const double scale = length_correction(turn, u);
     StripePoint& p = out.emplace_back();

@@ -45,12 +45,12 @@ class Follower {
   bool run(const RidgePlace& start, std::vector<StripePoint>& out);
 
   /// Marks the pixels across the stripe.
-  void mark(double x, double y, const Direction& direction) {
+  void mark(const RidgePlace& p) {
     const double half = 2.1 * finder_.kernels.sigma;
-    if (direction.column_wise())
-      mask_.mark_column(nearest_pixel(x), y, half / std::abs(direction.x), labels_.current);
+    if (p.direction.column_wise())
+      mask_.mark_column(nearest_pixel(p.x), p.y, half / std::abs(p.direction.x), labels_.current);
     else
-      mask_.mark_row(nearest_pixel(y), x, half / std::abs(direction.y), labels_.current);
+      mask_.mark_row(nearest_pixel(p.y), p.x, half / std::abs(p.direction.y), labels_.current);
   }
 
  private:
@@ -197,7 +197,7 @@ void Follower<T>::advance(Tip& tip, const RidgePlace& p, std::vector<StripePoint
   tip.steady_steps = clear ? tip.steady_steps + 1 : 0;
   tip.last = p;
   out.push_back(to_stripe_point(p));
-  mark(p.x, p.y, p.direction);
+  mark(p);
 }
 
 /// Over a gap, a crossing (`far`) or a spot; bridged points fill it, except where a longer stretch is simply
@@ -252,11 +252,6 @@ bool Follower<T>::stride(Tip& tip, std::vector<StripePoint>& out) {
       found->strength < 0.5 * tip.recent_strength)
     return false;
   append_between(tip.last, *found, stride_, out);
-  // No column (row) of the mask's cells may be left out.
-  for (int k = mask_.cell_size(); k < stride_; k += mask_.cell_size()) {
-    const StripePoint& p = out[out.size() - static_cast<std::size_t>(k)];
-    mark(p.x, p.y, {p.normal_y, -p.normal_x});
-  }
   advance(tip, *found, out);
   tip.steady_steps = steady_steps;
   return true;
@@ -323,7 +318,7 @@ bool follow_one_way(const RidgeFinder<T>& finder, const RidgePlace& start, bool 
   Follower<T> follower(finder, mask, labels);
   RidgePlace first = start;
   if (!forward) first.direction = {-start.direction.x, -start.direction.y};
-  follower.mark(first.x, first.y, first.direction);
+  follower.mark(first);
   const std::size_t begin = out.size();
   const bool closed = follower.run(first, out);
   // Normals turn with the line's sense, which is the start's.

@@ -19,7 +19,6 @@ class ExclusionMask {
   /// All free; cells of 2^cell_shift x 2^cell_shift pixels.
   void reset(int width, int height, int cell_shift);
 
-  int cell_size() const { return 1 << shift_; }  ///< px
   std::uint16_t operator()(int x, int y) const { return labels_[index(x >> shift_, y >> shift_)]; }
   /// Marks free cells of the column x (or row y) whose centres lie within `half` px of `centre`.
   void mark_column(int x, double centre, double half, std::uint16_t label);

@@ -12,6 +12,7 @@
 #include "extraction/hu_recursive.h"
 #include "extraction/image_facts.h"
 #include "extraction/line_ends.h"
+#include "extraction/line_junctions.h"
 #include "extraction/line_measure.h"
 #include "extraction/line_noise.h"
 #include "extraction/parsed_options.h"
@@ -198,7 +199,10 @@ void finish_lines(const Run<T>& run) {
   ExtractionWorkspace& w = run.w;
   smooth_measures(w.kernels, w.lines, w.values);
   predict_errors(run.image, w.kernels, run.facts.noise.full, w.lines, w.values);
-  if (has_ridges(run.options.method)) mend_line_ends(w.kernels, w.lines, w.bends.nodes);
+  if (has_ridges(run.options.method)) {
+    mend_line_ends(w.kernels, w.lines, w.bends.nodes);
+    mend_junctions(w.kernels, w.lines);
+  }
   if (run.options.curvature_correction && has_ridges(run.options.method))
     correct_curvature_bias(w.kernels, w.lines, w.bends);
   if (run.options.smoothing) smooth_along_lines(w.kernels, w.lines, w.smoothing);

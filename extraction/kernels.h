@@ -4,7 +4,6 @@
 // Steger 1998, section 2.3: kernels integrated over the pixel (differences of the Gaussian's integral).
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -42,14 +41,6 @@ struct DerivativeKernels {
 
 /// Kernels of scale `sigma` px, 0.4 <= sigma <= 40.
 DerivativeKernels make_derivative_kernels(double sigma);
-
-/// How many columns (rows) a line that is seen through these kernels may go from one evaluation to the next,
-/// at most h = 4/3 sigma. Each gives place and direction, so that a cubic between two is off by h^4 / 384
-/// times the fourth derivative; of noise that was smoothed over sigma that is 2.6 / sigma^4 of itself: 2 %.
-/// Narrow stripes, whose ragged ends and gaps are only a few pixels, are seen at least every sigma.
-inline int evaluation_stride(double sigma) {
-  return std::clamp(static_cast<int>(sigma < 3 ? sigma : 1.334 * sigma), 1, 6);
-}
 
 /// A place rounded to the phases of the kernels.
 struct PhasedPosition {

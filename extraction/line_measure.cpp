@@ -102,13 +102,13 @@ void fill_between(std::size_t a, std::size_t b, LineSet& lines, LineMeasures& m)
   }
 }
 
-/// The points of one line by their own profiles: all of them near its ends, where each counts, further in
-/// as many as are evaluated.
+/// The points of one line by their own profiles: all of them near its ends, where each counts, further in one
+/// in sigma.
 template <class T>
 void measure_singly(ImageView<T> image, double sigma, double full_width, double clipped_level,
                     const LineRange& r, LineSet& lines, LineMeasures& m) {
   const auto edge = static_cast<std::size_t>(4 * sigma);
-  const auto stride = static_cast<std::size_t>(evaluation_stride(sigma));
+  const auto stride = static_cast<std::size_t>(std::clamp(static_cast<int>(sigma), 1, 4));
   std::size_t last = r.begin;
   for (std::size_t i = r.begin; i < r.end;) {
     const Crossing<T> c = crossing_at(image, lines.points[i]);

@@ -95,6 +95,32 @@ TEST(Accuracy, EstimatedScaleIsTheStripesOwn) {
   }
 }
 
+TEST(Accuracy, BothLinesRunStraightThroughTheirCrossing) {
+  // The bridge lies on a parabola through 24 points on both sides, each good to 0.01 px: 0.05 px would be
+  // five times its error. A cubic from the last points before the crossing is off by 0.3 px and more.
+  scenes::Canvas canvas(400, 400, 20);
+  for (const double degrees : {15.0, 75.0}) {
+    const double dx = 300 * std::cos(degrees * 0.0174533), dy = 300 * std::sin(degrees * 0.0174533);
+    canvas.add(scenes::make_line(200.3 - dx, 199.6 - dy, 200.3 + dx, 199.6 + dy, 110, 3.0));
+  }
+  ExtractionOptions options;
+  options.sigma = 3.0;
+  const auto result = extract_stripes(canvas.exposed(2, 0.0, 5).view(), options);
+  ASSERT_EQ(result.stripes.size(), 2U);
+  int near = 0;
+  for (const Stripe& stripe : result.stripes)
+    for (const StripePoint& p : stripe.points) {
+      if (std::hypot(p.x - 200.3, p.y - 199.6) > 10) continue;
+      ++near;
+      double nearest = 1e9;
+      for (const double degrees : {15.0, 75.0})
+        nearest = std::min(nearest, std::abs((p.y - 199.6) * std::cos(degrees * 0.0174533) -
+                                             (p.x - 200.3) * std::sin(degrees * 0.0174533)));
+      EXPECT_LT(nearest, 0.05) << p.x << " " << p.y;
+    }
+  EXPECT_GT(near, 30);
+}
+
 TEST(Accuracy, WorkspaceChangesNothing) {
   ExtractionWorkspace workspace;
   ExtractionResult kept;
