@@ -62,6 +62,11 @@ ImageHeader inspect_jpeg(std::string_view bytes) {
     }
     if (marker == 0xd9) return header;
     if (is_start_of_frame(marker)) {
+      if (header.width > 0 ||
+          header.height > 0) {  // decoders go by the first, and could be led past this guard
+        header.damage = "says its size twice";
+        return header;
+      }
       header.height = static_cast<std::int64_t>(in.u16(at + 5));
       header.width = static_cast<std::int64_t>(in.u16(at + 7));
     }

@@ -109,6 +109,8 @@ void append_segment(Outline& chain, const Eigen::Vector2d& from, const SegmentFi
   if (segment.center) check_arc(chain.segments.back(), subject);
 }
 
+constexpr double kLeastAreaMm2 = 1e-3;
+
 Outline outline_of(const OutlineFields& fields, const std::string& origin) {
   if (fields.format != "lightstripe-outline/1")
     throw Error(origin + ": format", "is '" + fields.format + "'", "write format: lightstripe-outline/1");
@@ -124,7 +126,10 @@ Outline outline_of(const OutlineFields& fields, const std::string& origin) {
                 "correct `start` or the last `to`");
   const Outline whole = fields.mirrored ? mirrored(chain) : chain;
   if (!whole.closed()) throw Error(origin + ": segments", "do not close", "let the last one end at `start`");
-  return section_properties(whole).area > 0 ? whole : reversed(whole);
+  const double area = section_properties(whole).area;
+  if (!(std::abs(area) > kLeastAreaMm2))
+    throw Error(origin + ": segments", "enclose no area", "give the whole outline");
+  return area > 0 ? whole : reversed(whole);
 }
 
 bool is_path(const std::string& text) {

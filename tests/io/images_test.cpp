@@ -11,6 +11,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "core/random.h"
+#include "io/image_header.h"
 #include "tests/io/temp_folder.h"
 
 namespace lightstripe {
@@ -185,6 +186,20 @@ TEST(ReadImage, ALieAboutTheSizeIsFoundBeforeAllocation) {
               HasSubstr("b.pgm: "));
   EXPECT_THAT(error_of([&] { read_image(folder.write("c.pgm", "P5 16384 16384 255\nx")); }),
               HasSubstr("ends before"));
+}
+
+// Found by fuzzing: the decoder takes the first size (35152 x 19977), a reader of headers that took the last
+// let it pass.
+TEST(ReadImage, AJpegThatSaysItsSizeTwiceIsRefusedBeforeAllocation) {
+  const auto start_of_frame = [](const std::string& height_and_width) {
+    return "\xff\xc0" + std::string("\0\x0b\x08", 3) + height_and_width + std::string("\x01\x01\x11\0", 4);
+  };
+  const ImageHeader header =
+      inspect_image("\xff\xd8\xff\xe0" + std::string("\0\x02", 2) + start_of_frame("\x4e\x09\x89\x50") +
+                    start_of_frame(std::string("\0\x45\0\x09", 4)) + "\xff\xd9");
+  EXPECT_EQ(header.width, 35152);
+  EXPECT_EQ(header.height, 19977);
+  EXPECT_EQ(header.damage, "says its size twice");
 }
 
 TEST(ReadImage, ExplainsWhatIsNoPicture) {

@@ -180,6 +180,12 @@ TEST(NominalOutlines, EveryBuiltInOneSaysItsKind) {
   }
 }
 
+// Found by fuzzing.
+TEST(NominalOutlines, AnOutlineThatEnclosesNothingIsRefused) {
+  EXPECT_THAT(message_of(LIGHTSTRIPE_SOURCE_DIR "/tests/fuzz/seeds/nominal_outline/without_area.yaml"),
+              HasSubstr("segments: enclose no area"));
+}
+
 TEST(NominalOutlines, UnknownNameListsTheBuiltInOnes) {
   EXPECT_THAT(nominal_names(), Contains("60E1"));
   EXPECT_THAT(message_of("61E1"), HasSubstr("60E1"));
