@@ -32,21 +32,39 @@ struct Timing {
   std::string method;
   double median_ms = 0;
   std::size_t points = 0;
-  std::optional<double> found;       ///< part of the reference's points that this method finds; extraction methods only
-  std::optional<double> besides;     ///< part of its own points that the reference does not have
+  std::optional<double>
+      found;  ///< part of the reference's points that this method finds; extraction methods only
+  std::optional<double> besides;  ///< part of its own points that the reference does not have
 };
 
-/// Median of the repeats, after one run that warms caches and buffers.
-double median_ms(int repeat, const std::function<void()>& work) {
-  work();
-  std::vector<double> times;
-  for (int i = 0; i < repeat; ++i) {
-    const auto start = std::chrono::steady_clock::now();
-    work();
-    times.push_back(std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
+/// Something to time, and what is known of its results.
+struct Candidate {
+  Timing timing;
+  std::function<void()> work;
+  std::vector<double> times_ms;
+};
+
+constexpr int kRounds = 10;
+
+/// Medians of the repeats. They are taken in rounds over all candidates, so that a slow phase of the machine
+/// hits all alike; each begins its turn with a run that warms its caches and buffers.
+void time_in_rounds(std::vector<Candidate>& candidates, int repeat) {
+  const int rounds = std::min(kRounds, repeat);
+  for (int round = 0; round < rounds; ++round)
+    for (auto& candidate : candidates) {
+      candidate.work();
+      for (int i = round * repeat / rounds; i < (round + 1) * repeat / rounds; ++i) {
+        const auto start = std::chrono::steady_clock::now();
+        candidate.work();
+        const std::chrono::duration<double, std::milli> taken = std::chrono::steady_clock::now() - start;
+        candidate.times_ms.push_back(taken.count());
+      }
+    }
+  for (auto& [timing, work, times] : candidates) {
+    const auto middle = times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2);
+    std::nth_element(times.begin(), middle, times.end());
+    timing.median_ms = *middle;
   }
-  std::nth_element(times.begin(), times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2), times.end());
-  return times[times.size() / 2];
 }
 
 std::vector<StripePoint> all_points(const std::vector<Stripe>& stripes) {
@@ -56,7 +74,8 @@ std::vector<StripePoint> all_points(const std::vector<Stripe>& stripes) {
 }
 
 /// The part of `points` that has a point of `others` within a pixel and a half.
-double agreement(const std::vector<StripePoint>& points, const std::vector<StripePoint>& others, ImageView8 image) {
+double agreement(const std::vector<StripePoint>& points, const std::vector<StripePoint>& others,
+                 ImageView8 image) {
   constexpr int kReach = 1;
   Image8 marked(image.width, image.height);
   for (const auto& p : others) {
@@ -84,8 +103,8 @@ struct RequiredAgreement {
   double besides = 0.1;  ///< part of its own points that the reference does not have
 };
 
-/// The grey-value methods take one point a row or column, Zhou's sees nothing below Otsu's threshold: what they lose by
-/// their idea is shown, not refused.
+/// The grey-value methods take one point a row or column, Zhou's sees nothing below Otsu's threshold: what
+/// they lose by their idea is shown, not refused.
 RequiredAgreement required_agreement(ExtractionMethod method) {
   switch (method) {
     case ExtractionMethod::kCentroid:
@@ -98,60 +117,84 @@ RequiredAgreement required_agreement(ExtractionMethod method) {
   }
 }
 
-void time_methods(ImageView8 image, const ExtractionOptions& base, int repeat, ImageBench& bench) {
-  ExtractionOptions options = base;
+Timing& add(std::vector<Candidate>& candidates, std::string name, std::function<void()> work) {
+  Candidate& candidate = candidates.emplace_back();
+  candidate.timing.method = std::move(name);
+  candidate.work = std::move(work);
+  return candidate.timing;
+}
+
+/// What one method of ours keeps from frame to frame.
+struct MethodRun {
+  ExtractionOptions options;
+  ExtractionWorkspace workspace;
+  ExtractionResult result;
+};
+
+void add_methods(ImageView8 image, ExtractionOptions options, std::vector<Candidate>& candidates,
+                 std::vector<std::string>& disagreements) {
   options.method = ExtractionMethod::kSteger;
   const auto reference = all_points(extract_stripes(image, options).stripes);
   for (const auto& [method, name] : enum_names(ExtractionMethod{})) {
-    options.method = method;
-    ExtractionWorkspace workspace;
-    ExtractionResult result;
-    extract_stripes(image, options, workspace, result);
-    const auto points = all_points(result.stripes);
+    const auto run = std::make_shared<MethodRun>();
+    run->options = options;
+    run->options.method = method;
+    const auto work = [image, run] { extract_stripes(image, run->options, run->workspace, run->result); };
+    work();
+    const auto points = all_points(run->result.stripes);
     const double found = agreement(reference, points, image);
     const double besides = 1 - agreement(points, reference, image);
     const RequiredAgreement required = required_agreement(method);
-    if (found < required.found || besides > required.besides)
-      bench.disagreements.push_back(std::string(name));
-    const double time = median_ms(repeat, [&] { extract_stripes(image, options, workspace, result); });
-    bench.timings.push_back({std::string(name), time, points.size(), found, besides});
+    if (found < required.found || besides > required.besides) disagreements.emplace_back(name);
+    Timing& timing = add(candidates, std::string(name), work);
+    timing.points = points.size();
+    timing.found = found;
+    timing.besides = besides;
   }
 }
 
-ImageBench bench_image(ImageView8 image, const ExtractionOptions& base, int repeat) {
-  ImageBench bench;
-  ExtractionOptions options = base;
+void add_references(ImageView8 image, double sigma, double min_strength, Image8& target,
+                    std::vector<Candidate>& candidates) {
+  const std::size_t points = steger_by_opencv(image, sigma, min_strength).size();
+  add(candidates, "opencv-steger", [=] { steger_by_opencv(image, sigma, min_strength); }).points = points;
+  add(candidates, "opencv-calchist", [=] { calchist_by_opencv(image); });
+  add(candidates, "opencv-gaussianblur", [=, &target] { gaussianblur_by_opencv(image, sigma, target); });
+  add(candidates, "memcpy", [=, &target] {
+    for (int y = 0; y < image.height; ++y)
+      std::memcpy(target.row(y), image.row(y), static_cast<std::size_t>(image.width));
+  });
+}
+
+ImageBench bench_image(ImageView8 image, ExtractionOptions options, int repeat) {
   const ExtractionResult found = extract_stripes(image, options);
   const double sigma = found.sigma > 0 ? found.sigma : 2.0;
   // The width is fixed for the timing, as it is in a scan whose rig is known.
   if (!options.sigma && !options.stripe_width) options.sigma = sigma;
-  time_methods(image, options, repeat, bench);
-
   double weakest = 1e9;
   for (const auto& p : all_points(found.stripes)) weakest = std::min(weakest, p.strength);
-  const double min_strength = weakest < 1e9 ? 0.5 * weakest : 1.0;
-  std::size_t points = 0;
-  const double steger = median_ms(repeat, [&] { points = steger_by_opencv(image, sigma, min_strength).size(); });
-  bench.timings.push_back({"opencv-steger", steger, points, {}, {}});
-  bench.timings.push_back({"opencv-calchist", median_ms(repeat, [&] { calchist_by_opencv(image); }), 0, {}, {}});
+
+  ImageBench bench;
+  std::vector<Candidate> candidates;
   Image8 target(image.width, image.height);
-  bench.timings.push_back({"opencv-gaussianblur", median_ms(repeat, [&] { gaussianblur_by_opencv(image, sigma, target); }), 0, {}, {}});
-  const auto copy = [&] {
-    for (int y = 0; y < image.height; ++y) std::memcpy(target.row(y), image.row(y), static_cast<std::size_t>(image.width));
-  };
-  bench.timings.push_back({"memcpy", median_ms(repeat, copy), 0, {}, {}});
+  add_methods(image, options, candidates, bench.disagreements);
+  add_references(image, sigma, weakest < 1e9 ? 0.5 * weakest : 1.0, target, candidates);
+  time_in_rounds(candidates, repeat);
+  for (auto& candidate : candidates) bench.timings.push_back(std::move(candidate.timing));
   return bench;
 }
 
 double steger_time(const ImageBench& bench) {
-  const auto row = std::find_if(bench.timings.begin(), bench.timings.end(), [](const auto& t) { return t.method == "opencv-steger"; });
+  const auto row = std::find_if(bench.timings.begin(), bench.timings.end(),
+                                [](const auto& t) { return t.method == "opencv-steger"; });
   return row->median_ms;
 }
 
 std::string table_row(const Timing& t, double steger_ms) {
-  std::string row = fmt::format("  {:<20} {:>10.4f} ms {:>8.1f} x opencv-steger's speed", t.method, t.median_ms, steger_ms / t.median_ms);
+  std::string row = fmt::format("  {:<20} {:>10.4f} ms {:>8.1f} x opencv-steger's speed", t.method,
+                                t.median_ms, steger_ms / t.median_ms);
   if (t.found)
-    row += fmt::format(" {:>6} points, {:.1f} % of steger's, {:.1f} % besides", t.points, 100 * *t.found, 100 * *t.besides);
+    row += fmt::format(" {:>6} points, {:.1f} % of steger's, {:.1f} % besides", t.points, 100 * *t.found,
+                       100 * *t.besides);
   return row;
 }
 
@@ -165,7 +208,8 @@ int run_bench(BenchArguments arguments) {
   for (const auto& file : arguments.images) {
     const Image8 image = read_image(file);
     const ImageBench bench = bench_image(image, options, arguments.repeat);
-    say(arguments.common, fmt::format("{} ({} x {}, one thread, median of {})", file, image.width, image.height, arguments.repeat));
+    say(arguments.common, fmt::format("{} ({} x {}, one thread, median of {})", file, image.width,
+                                      image.height, arguments.repeat));
     for (const auto& timing : bench.timings) {
       csv += fmt::format("{},{},{:.6f},{}\n", csv_cell(file), timing.method, timing.median_ms, timing.points);
       say(arguments.common, table_row(timing, steger_time(bench)));
@@ -176,7 +220,8 @@ int run_bench(BenchArguments arguments) {
   write_file(output, csv);
   say(arguments.common, "-> " + output);
   if (!disagreements.empty())
-    return not_usable("these methods find other lines than steger, so their times mean little:" + disagreements);
+    return not_usable("these methods find other lines than steger, so their times mean little:" +
+                      disagreements);
   return kExitDone;
 }
 
@@ -187,7 +232,8 @@ void add_bench_command(CLI::App& app, Command& run) {
   auto arguments = std::make_shared<BenchArguments>();
   command->add_option("images", arguments->images, "image files")->required();
   add_common_options(*command, arguments->common, "table of times (default: bench.csv)");
-  command->add_option("--repeat", arguments->repeat, "runs of which the median is taken [100]")->check(CLI::Range(1, 1000000));
+  command->add_option("--repeat", arguments->repeat, "runs of which the median is taken [100]")
+      ->check(CLI::Range(1, 1000000));
   add_field_options<ExtractionOptions>(*command, "", arguments->overrides);
   command->callback([arguments, &run] { run = [arguments] { return run_bench(*arguments); }; });
 }
