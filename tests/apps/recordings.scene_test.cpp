@@ -172,7 +172,9 @@ TEST_F(Recordings, KilledAndResumedRunsEndInTheSameBytes) {
   const int wanted = number_of_kills();
   Random random(20);
   int kills = 0, with_something_done = 0, identical = 0;
-  for (int round = 0; identical < wanted && round < 3 * wanted; ++round) {
+  // On a busy machine many runs are killed before their first checkpoint: as many more follow as it takes.
+  const auto enough = [&] { return identical >= wanted && with_something_done >= wanted / 3; };
+  for (int round = 0; !enough() && round < 6 * wanted; ++round) {
     const int before = kills;
     std::string more = "--threads 2 --checkpoint 0.02";
     for (int attempt = 0; attempt < (round % 4 == 0 ? 2 : 1); ++attempt) {
@@ -193,7 +195,7 @@ TEST_F(Recordings, KilledAndResumedRunsEndInTheSameBytes) {
   }
   std::cout << kills << " kills, " << with_something_done << " of them with something to go on from; "
             << identical << " killed runs resumed, all to the bytes of the undisturbed run\n";
-  EXPECT_EQ(identical, wanted);
+  EXPECT_GE(identical, wanted);
   EXPECT_GE(with_something_done, wanted / 3);
 }
 
