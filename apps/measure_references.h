@@ -23,8 +23,6 @@ class MeasureReferences {
   const ReferenceShape& at(double travel) const;
   /// Of the other rail, if there are two.
   const ReferenceShape& right() const { return right_ ? *right_ : nominal_; }
-  /// Two rails: where they part.
-  const std::optional<double>& between_u() const { return between_u_; }
 
   MeasuredFrame measure(const Profile& profile, const MeasureInput& input,
                         const MeasureOptions& options) const;
@@ -35,7 +33,8 @@ class MeasureReferences {
   ReferenceShape nominal_;
   std::optional<ReferenceShape> right_;
   std::optional<Baseline> baseline_;
-  std::optional<double> between_u_, rig_sigma_mm_;
+  std::optional<double> between_u_;  ///< two rails: where they part
+  std::optional<double> rig_sigma_mm_;
 };
 
 }  // namespace lightstripe

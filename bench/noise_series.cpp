@@ -16,20 +16,7 @@
 namespace lightstripe {
 namespace {
 
-constexpr int kSize = 512, kTrials = 100;
-constexpr double kCentre = 256, kStripe = 2.5;  // px
-
-Image8 noisy_stripe(double noise_share, std::uint64_t seed) {
-  Image8 image(kSize, kSize);
-  Random random(seed, static_cast<std::uint64_t>(1000 * noise_share));
-  for (int y = 0; y < kSize; ++y)
-    for (int x = 0; x < kSize; ++x) {
-      const double d = (x - kCentre) / kStripe;
-      const double level = 255 * std::exp(-0.5 * d * d) + 255 * noise_share * random.gaussian();
-      image(x, y) = static_cast<std::uint8_t>(std::clamp(std::lround(level), 0L, 255L));
-    }
-  return image;
-}
+constexpr int kTrials = 100;
 
 struct Level {
   double noise = 0, plain = 0, smooth = 0;  ///< share of full scale; rms, px
@@ -40,7 +27,8 @@ struct Level {
 double squared_errors(const ExtractionResult& result) {
   double sum = 0;
   for (const Stripe& s : result.stripes)
-    for (const StripePoint& p : s.points) sum += (p.x - kCentre) * (p.x - kCentre);
+    for (const StripePoint& p : s.points)
+      sum += (p.x - scenes::kFigure5Centre) * (p.x - scenes::kFigure5Centre);
   return sum;
 }
 
@@ -48,11 +36,12 @@ Level run(double noise, ExtractionWorkspace& workspace) {
   Level level;
   level.noise = noise;
   ExtractionOptions options;
-  options.sigma = kStripe;
+  options.sigma = scenes::kFigure5Sigma;
   double points = 0;
   ExtractionResult result;
   for (int trial = 0; trial < kTrials; ++trial) {
-    const Image8 image = noisy_stripe(noise, static_cast<std::uint64_t>(trial));
+    const Image8 image = scenes::figure5_stripe(
+        noise, Random(static_cast<std::uint64_t>(trial), static_cast<std::uint64_t>(1000 * noise)));
     options.smoothing = false;
     extract_stripes(image.view(), options, workspace, result);
     level.plain += squared_errors(result);
@@ -64,7 +53,7 @@ Level run(double noise, ExtractionWorkspace& workspace) {
   }
   level.plain = std::sqrt(level.plain / points);
   level.smooth = std::sqrt(level.smooth / points);
-  level.found = points / (kSize * kTrials);
+  level.found = points / (scenes::kFigure5Size * kTrials);
   return level;
 }
 

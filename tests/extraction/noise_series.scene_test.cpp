@@ -12,21 +12,6 @@
 namespace lightstripe {
 namespace {
 
-constexpr int kSize = 512;
-constexpr double kCentre = 256, kStripe = 2.5;  // px
-
-Image8 noisy_stripe(double noise_share, std::uint64_t seed) {
-  Image8 image(kSize, kSize);
-  Random random(seed);
-  for (int y = 0; y < kSize; ++y)
-    for (int x = 0; x < kSize; ++x) {
-      const double d = (x - kCentre) / kStripe;
-      const double level = 255 * std::exp(-0.5 * d * d) + 255 * noise_share * random.gaussian();
-      image(x, y) = static_cast<std::uint8_t>(std::clamp(std::lround(level), 0L, 255L));
-    }
-  return image;
-}
-
 struct Series {
   double rms = 0, predicted = 0;  ///< px
   double least_found = 1;         ///< share of the rows, in the worst image
@@ -35,23 +20,24 @@ struct Series {
 
 Series run(double noise_share, bool smoothing, int trials) {
   ExtractionOptions options;
-  options.sigma = kStripe;
+  options.sigma = scenes::kFigure5Sigma;
   options.smoothing = smoothing;
   Series series;
   int points = 0;
   for (int trial = 0; trial < trials; ++trial) {
-    const auto r =
-        extract_stripes(noisy_stripe(noise_share, static_cast<std::uint64_t>(trial)).view(), options);
+    const auto r = extract_stripes(
+        scenes::figure5_stripe(noise_share, Random(static_cast<std::uint64_t>(trial))).view(), options);
     std::set<long> rows;
     series.lines += r.stripes.size();
     for (const Stripe& s : r.stripes)
       for (const StripePoint& p : s.points) {
-        series.rms += (p.x - kCentre) * (p.x - kCentre);
+        series.rms += (p.x - scenes::kFigure5Centre) * (p.x - scenes::kFigure5Centre);
         series.predicted += p.sigma_px * p.sigma_px;
         ++points;
-        if (std::abs(p.x - kCentre) < 2) rows.insert(std::lround(p.y));
+        if (std::abs(p.x - scenes::kFigure5Centre) < 2) rows.insert(std::lround(p.y));
       }
-    series.least_found = std::min(series.least_found, static_cast<double>(rows.size()) / kSize);
+    series.least_found =
+        std::min(series.least_found, static_cast<double>(rows.size()) / scenes::kFigure5Size);
   }
   series.rms = std::sqrt(series.rms / points);
   series.predicted = std::sqrt(series.predicted / points);
@@ -85,10 +71,10 @@ TEST(NoiseSeries, SmoothingAlongTheLineHalvesIt) {
 
 TEST(NoiseSeries, TheWidthIsFoundInNoiseAsWell) {
   for (const double noise : {0.1, 0.3}) {
-    const auto r = extract_stripes(noisy_stripe(noise, 5).view());
+    const auto r = extract_stripes(scenes::figure5_stripe(noise, Random(5)).view());
     ASSERT_EQ(r.stripes.size(), 1U) << noise;
     // Clipping takes the noise of the dark side away and widens the stripe.
-    EXPECT_NEAR(r.sigma / kStripe, 1.1, 0.4) << noise;
+    EXPECT_NEAR(r.sigma / scenes::kFigure5Sigma, 1.1, 0.4) << noise;
   }
 }
 

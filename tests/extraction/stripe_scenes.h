@@ -163,4 +163,20 @@ inline Score score(const std::vector<Curve>& curves, const std::vector<Stripe>& 
   return s;
 }
 
+/// Figure 5 of Chen, Zhang, Sun 2013: one vertical Gaussian stripe from edge to edge.
+inline constexpr int kFigure5Size = 512;
+inline constexpr double kFigure5Centre = 256, kFigure5Sigma = 2.5;  // px
+
+/// `noise_share`: standard deviation of the noise, as a share of full scale.
+inline Image8 figure5_stripe(double noise_share, Random random) {
+  Image8 image(kFigure5Size, kFigure5Size);
+  for (int y = 0; y < kFigure5Size; ++y)
+    for (int x = 0; x < kFigure5Size; ++x) {
+      const double d = (x - kFigure5Centre) / kFigure5Sigma;
+      const double level = 255 * std::exp(-0.5 * d * d) + 255 * noise_share * random.gaussian();
+      image(x, y) = static_cast<std::uint8_t>(std::clamp(std::lround(level), 0L, 255L));
+    }
+  return image;
+}
+
 }  // namespace lightstripe::scenes

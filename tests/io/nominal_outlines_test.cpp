@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <sstream>
 
 #include "core/error.h"
@@ -70,23 +71,32 @@ TEST(Nominal60E1, RunsSmoothlyThroughTheHeadsTangentPoints) {
     EXPECT_NEAR((normal_at(rail.segments[i], 1) - normal_at(rail.segments[i + 1], 0)).norm(), 0, 1e-5) << i;
 }
 
-// Rounding of the table: 1e-5 mm in the tangent points, 1e-5 in each sample.
-TEST(Nominal60E1, AgreesWithTheReferenceContour) {
-  std::ifstream file(LIGHTSTRIPE_SOURCE_DIR "/../shared/reference/60E1_full_0p25mm.csv");
-  if (!file) GTEST_SKIP() << "reference contour not present";
-  const Outline rail = read_nominal("60E1");
+/// The points of a table in shared/reference; nothing where it is absent.
+std::optional<std::vector<Vector2d>> reference_points(const std::string& name) {
+  std::ifstream file(LIGHTSTRIPE_SOURCE_DIR "/../shared/reference/" + name);
+  if (!file) return std::nullopt;
+  std::vector<Vector2d> points;
   std::string line;
-  int points = 0;
-  double worst = 0;
   while (std::getline(file, line)) {
     Vector2d p;
     char comma = 0;
-    if (!(std::istringstream(line) >> p.x() >> comma >> p.y())) continue;
-    worst = std::max(worst, closest_point(rail, p).distance);
-    ++points;
+    if (std::istringstream(line) >> p.x() >> comma >> p.y()) points.push_back(p);
   }
-  EXPECT_GT(points, 2000);
-  EXPECT_LT(worst, 5e-5);
+  return points;
+}
+
+double farthest_from(const Outline& outline, const std::vector<Vector2d>& points) {
+  double worst = 0;
+  for (const Vector2d& p : points) worst = std::max(worst, closest_point(outline, p).distance);
+  return worst;
+}
+
+// Rounding of the table: 1e-5 mm in the tangent points, 1e-5 in each sample.
+TEST(Nominal60E1, AgreesWithTheReferenceContour) {
+  const auto points = reference_points("60E1_full_0p25mm.csv");
+  if (!points) GTEST_SKIP() << "reference contour not present";
+  EXPECT_GT(points->size(), 2000u);
+  EXPECT_LT(farthest_from(read_nominal("60E1"), *points), 5e-5);
 }
 
 void expect_section(const std::string& name, double area_cm2, double inertia_u_cm4, double inertia_v_cm4,
@@ -145,21 +155,11 @@ TEST(NominalWheel, S1002HasTheStandardsHeightThicknessAndQr) {
 }
 
 TEST(NominalWheel, S1002AgreesWithTheReferenceContour) {
-  std::ifstream file("/work/shared/reference/S1002_h28_e32p5_0p25mm.csv");
-  if (!file) GTEST_SKIP() << "reference contour not present";
-  const Outline wheel = read_nominal("S1002");
-  std::string line;
-  int points = 0;
-  double worst = 0;
-  while (std::getline(file, line)) {
-    Vector2d p;
-    char comma = 0;
-    if (!(std::istringstream(line) >> p.x() >> comma >> p.y())) continue;
-    worst = std::max(worst, closest_point(wheel, p).distance);
-    ++points;
-  }
-  EXPECT_GT(points, 700);
-  EXPECT_LT(worst, 1.5e-4);  // the zones' own steps of 1.2e-4 and the table's rounding
+  const auto points = reference_points("S1002_h28_e32p5_0p25mm.csv");
+  if (!points) GTEST_SKIP() << "reference contour not present";
+  EXPECT_GT(points->size(), 700u);
+  EXPECT_LT(farthest_from(read_nominal("S1002"), *points),
+            1.5e-4);  // the zones' own steps of 1.2e-4 and the table's rounding
 }
 
 TEST(NominalWheel, ConesAreConesWithAFlangeOf28) {
