@@ -14,16 +14,20 @@ cv::Mat as_mat(ImageView8 image) {
                  static_cast<std::size_t>(image.stride));
 }
 
-/// The Gaussian's derivatives of order 0..2, averaged over each pixel: differences of the next lower one at the pixel's ends.
+/// The Gaussian's derivatives of order 0..2, averaged over each pixel: differences of the next lower one at
+/// the pixel's ends.
 cv::Mat1f gaussian_kernel(double sigma, int order) {
   const int radius = static_cast<int>(std::ceil(3 * sigma));
   const auto lower = [&](double x) {
     const double gauss = std::exp(-x * x / (2 * sigma * sigma)) / (std::sqrt(2 * std::numbers::pi) * sigma);
-    return order == 0 ? 0.5 * std::erf(x / (std::numbers::sqrt2 * sigma)) : order == 1 ? gauss : -x / (sigma * sigma) * gauss;
+    return order == 0   ? 0.5 * std::erf(x / (std::numbers::sqrt2 * sigma))
+           : order == 1 ? gauss
+                        : -x / (sigma * sigma) * gauss;
   };
   cv::Mat1f kernel(2 * radius + 1, 1);
   // sepFilter2D correlates: the mirrored kernel makes it the convolution that a derivative is.
-  for (int i = -radius; i <= radius; ++i) kernel(radius - i, 0) = static_cast<float>(lower(i + 0.5) - lower(i - 0.5));
+  for (int i = -radius; i <= radius; ++i)
+    kernel(radius - i, 0) = static_cast<float>(lower(i + 0.5) - lower(i - 0.5));
   return kernel;
 }
 
@@ -45,7 +49,8 @@ Ridge ridge_of(float xx, float xy, float yy) {
 
 std::vector<StripePoint> steger_by_opencv(ImageView8 image, double sigma, double min_strength) {
   const cv::Mat source = as_mat(image);
-  const cv::Mat1f g0 = gaussian_kernel(sigma, 0), g1 = gaussian_kernel(sigma, 1), g2 = gaussian_kernel(sigma, 2);
+  const cv::Mat1f g0 = gaussian_kernel(sigma, 0), g1 = gaussian_kernel(sigma, 1),
+                  g2 = gaussian_kernel(sigma, 2);
   cv::Mat1f x, y, xx, xy, yy;
   const auto filter = [&](cv::Mat1f& out, const cv::Mat1f& kx, const cv::Mat1f& ky) {
     cv::sepFilter2D(source, out, CV_32F, kx, ky, cv::Point(-1, -1), 0, cv::BORDER_REPLICATE);

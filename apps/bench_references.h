@@ -10,8 +10,9 @@
 
 namespace lightstripe {
 
-/// Steger's test at every pixel: five cv::sepFilter2D with kernels integrated over the pixel and the eigenvalue test, in single
-/// precision. Points where the Hessian's eigenvalue of largest magnitude is below -min_strength.
+/// Steger's test at every pixel: five cv::sepFilter2D with kernels integrated over the pixel and the
+/// eigenvalue test, in single precision. Points where the Hessian's eigenvalue of largest magnitude is below
+/// -min_strength.
 std::vector<StripePoint> steger_by_opencv(ImageView8 image, double sigma, double min_strength);
 
 void calchist_by_opencv(ImageView8 image);

@@ -24,7 +24,8 @@ cv::Point fixed_point(double x, double y, double scale) {
 
 cv::Mat1b gray_of(const SeenPicture& picture) {
   const Image8 board = read_image(picture.board, Channel::kGray);
-  cv::Mat1b gray = cv::Mat1b(board.height, board.width, const_cast<std::uint8_t*>(board.pixels.data())).clone();
+  cv::Mat1b gray =
+      cv::Mat1b(board.height, board.width, const_cast<std::uint8_t*>(board.pixels.data())).clone();
   if (picture.laser.empty()) return gray;
   const Image8 laser = read_image(picture.laser, Channel::kGray);
   if (laser.width != board.width || laser.height != board.height) return gray;
@@ -61,14 +62,18 @@ OverlayPicture draw_board(const SeenPicture& picture, int max_width_px) {
   draw_corners(canvas, picture.corners, scale);
   for (const auto& stripe : picture.stripes)
     for (const auto& point : stripe)
-      cv::circle(canvas, fixed_point(point.x, point.y, scale), 1 << kShift, {255, 40, 40}, cv::FILLED, cv::LINE_AA, kShift);
-  return {{canvas.ptr<std::uint8_t>(), canvas.ptr<std::uint8_t>() + canvas.total() * 3}, canvas.cols, canvas.rows};
+      cv::circle(canvas, fixed_point(point.x, point.y, scale), 1 << kShift, {255, 40, 40}, cv::FILLED,
+                 cv::LINE_AA, kShift);
+  return {{canvas.ptr<std::uint8_t>(), canvas.ptr<std::uint8_t>() + canvas.total() * 3},
+          canvas.cols,
+          canvas.rows};
 }
 
 void write_overlays(const fs::path& folder, const std::vector<SeenPicture>& pictures) {
   oneapi::tbb::parallel_for(std::size_t{0}, pictures.size(), [&](std::size_t i) {
     const OverlayPicture overlay = draw_board(pictures[i], 0);
-    const fs::path file = folder / pictures[i].sensor / (fs::path(pictures[i].image).filename().stem().string() + ".png");
+    const fs::path file =
+        folder / pictures[i].sensor / (fs::path(pictures[i].image).filename().stem().string() + ".png");
     write_rgb_image(file, overlay.rgb, overlay.width, overlay.height);
   });
 }

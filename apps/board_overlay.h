@@ -16,8 +16,8 @@ struct OverlayPicture {
   int width = 0, height = 0;
 };
 
-/// The board's picture (or where the laser has one of its own, the brighter of both at each pixel) with corners,
-/// rows in order, and stripe points; not wider than `max_width_px` (0: full size).
+/// The board's picture (or where the laser has one of its own, the brighter of both at each pixel) with
+/// corners, rows in order, and stripe points; not wider than `max_width_px` (0: full size).
 OverlayPicture draw_board(const SeenPicture& picture, int max_width_px);
 
 /// Every picture as a PNG: <folder>/<sensor>/<image>.png.

@@ -21,7 +21,7 @@ struct RejectedImage {
 
 /// What was found in one picture, for overlays.
 struct SeenPicture {
-  std::string sensor, image, reason;  ///< reason: of what it does not give; empty if all is well
+  std::string sensor, image, reason;   ///< reason: of what it does not give; empty if all is well
   std::filesystem::path board, laser;  ///< laser may be empty
   std::vector<Eigen::Vector2d> corners;
   std::vector<std::vector<StripePoint>> stripes;
@@ -35,8 +35,10 @@ struct SessionObservations {
   int boards_found = 0;
 };
 
-/// Reads and looks at every image of the session, in parallel; the order of the views is that of the file names.
-SessionObservations observe_session(const Session& session, const ExtractionOptions& extraction, const CommonOptions& common);
+/// Reads and looks at every image of the session, in parallel; the order of the views is that of the file
+/// names.
+SessionObservations observe_session(const Session& session, const ExtractionOptions& extraction,
+                                    const CommonOptions& common);
 
 /// The table of sensors and views that `lightstripe calibrate` prints.
 std::string describe_calibration(const SessionObservations& seen, const CalibrationResult& result);
@@ -49,7 +51,8 @@ struct CalibrationFiles {
 };
 
 /// The command itself, also used by the demo.
-int calibrate_session(const std::string& session_file, const Overrides& extraction, const Overrides& calibration,
-                      const CommonOptions& common, const CalibrationFiles& files = {});
+int calibrate_session(const std::string& session_file, const Overrides& extraction,
+                      const Overrides& calibration, const CommonOptions& common,
+                      const CalibrationFiles& files = {});
 
 }  // namespace lightstripe

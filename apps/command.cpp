@@ -20,7 +20,8 @@ void add_common_options(CLI::App& app, CommonOptions& options, const std::string
 }
 
 int thread_count(const CommonOptions& options) {
-  return options.threads > 0 ? options.threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  return options.threads > 0 ? options.threads
+                             : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
 
 struct ThreadLimit::Impl {
@@ -30,7 +31,9 @@ struct ThreadLimit::Impl {
 };
 
 // OpenCV is kept to one thread: whatever runs in parallel here runs image by image.
-ThreadLimit::ThreadLimit(const CommonOptions& options) : impl_(new Impl(thread_count(options))) { cv::setNumThreads(1); }
+ThreadLimit::ThreadLimit(const CommonOptions& options) : impl_(new Impl(thread_count(options))) {
+  cv::setNumThreads(1);
+}
 ThreadLimit::~ThreadLimit() { delete impl_; }
 
 void say(const CommonOptions& options, const std::string& line) {

@@ -35,7 +35,8 @@ struct ExtractArguments {
   Overrides overrides;
 };
 
-/// One picture a name; pictures of the same name from several folders keep apart by the folder's name in front.
+/// One picture a name; pictures of the same name from several folders keep apart by the folder's name in
+/// front.
 std::vector<fs::path> overlay_names(const std::vector<std::string>& images, const fs::path& folder) {
   std::vector<fs::path> names;
   std::set<std::string> taken;
@@ -98,7 +99,8 @@ int run_extract(const ExtractArguments& arguments) {
   std::vector<fs::path> overlays;
   if (!arguments.overlay_folder.empty()) overlays = overlay_names(arguments.images, arguments.overlay_folder);
   const std::size_t total = arguments.images.size();
-  const std::size_t batch = 2 * static_cast<std::size_t>(thread_count(arguments.common));  // bounds the memory
+  const std::size_t batch =
+      2 * static_cast<std::size_t>(thread_count(arguments.common));  // bounds the memory
 
   AtomicFile file(arguments.common.output.empty() ? "stripes.csv" : arguments.common.output);
   std::ofstream table(file.temporary(), std::ios::binary);
@@ -111,8 +113,8 @@ int run_extract(const ExtractArguments& arguments) {
     oneapi::tbb::parallel_for(std::size_t{0}, results.size(), [&](std::size_t i) {
       const std::size_t index = begin + i;
       results[i] = extract_one(arguments.images[index], channel, options,
-                               overlays.empty() ? std::nullopt : std::optional(overlays[index]), arguments.explain,
-                               memories.local());
+                               overlays.empty() ? std::nullopt : std::optional(overlays[index]),
+                               arguments.explain, memories.local());
       progress.step();
     });
     for (const auto& result : results) {
@@ -125,9 +127,12 @@ int run_extract(const ExtractArguments& arguments) {
   table.close();
   if (!table) throw Error(file.path().string(), "writing failed", "check the disk's free space");
   file.commit();
-  say(arguments.common, fmt::format("{} images, {} lines, {} points -> {}", total, lines, points, file.path().string()));
+  say(arguments.common,
+      fmt::format("{} images, {} lines, {} points -> {}", total, lines, points, file.path().string()));
   if (points == 0)
-    return not_usable("no stripe was found in any image; look at exposure and --channel, or give --stripe-width and --thresholds");
+    return not_usable(
+        "no stripe was found in any image; look at exposure and --channel, or give --stripe-width and "
+        "--thresholds");
   return kExitDone;
 }
 
@@ -138,8 +143,9 @@ void add_extract_command(CLI::App& app, Command& run) {
   auto arguments = std::make_shared<ExtractArguments>();
   command->add_option("images", arguments->images, "image files")->required();
   add_common_options(*command, arguments->common, "table of points (default: stripes.csv)");
-  command->add_option("--channel", arguments->channel,
-                      "of colour images: auto, gray, red, green, blue, red-excess, green-excess, blue-excess");
+  command->add_option(
+      "--channel", arguments->channel,
+      "of colour images: auto, gray, red, green, blue, red-excess, green-excess, blue-excess");
   command->add_option("--overlay", arguments->overlay_folder, "folder for pictures with the lines drawn in");
   command->add_flag("--explain", arguments->explain,
                     "print how the thresholds came about; with --overlay also draw the histogram");

@@ -18,7 +18,8 @@ namespace {
 constexpr const char* kFirstSteps =
     "What to do first:\n"
     "  1. See it work, nothing needed:            lightstripe demo -o demo-output\n"
-    "  2. Look at a picture of your laser line:   lightstripe extract frame.png -o stripes.csv --overlay overlay\n"
+    "  2. Look at a picture of your laser line:   lightstripe extract frame.png -o stripes.csv "
+    "--overlay overlay\n"
     "  3. Copy configs/calibration.yaml, name your board pictures in it, and\n"
     "                                             lightstripe calibrate session.yaml -o rig.yaml\n"
     "  4. Copy configs/scan.yaml, name your scan's pictures in it, and\n"
@@ -59,7 +60,7 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
   // OpenCV's own lines on stderr say less than our one error line, and would stand before it.
   cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
-  std::signal(SIGXFSZ, SIG_IGN);  // a limit on a file's size is an error of writing like a full disk
+  std::signal(SIGXFSZ, SIG_IGN);           // a limit on a file's size is an error of writing like a full disk
   FLAGS_minloglevel = google::GLOG_FATAL;  // Ceres tells of steps that it then takes back
   try {
     return run(argc, argv);

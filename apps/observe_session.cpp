@@ -20,12 +20,12 @@ namespace fs = std::filesystem;
 
 /// What is to be looked at: one pose of the board before one sensor.
 struct ViewTask {
-  int sensor = 0;          ///< index in the session
-  bool motion = false;     ///< a view of the motion calibration
+  int sensor = 0;       ///< index in the session
+  bool motion = false;  ///< a view of the motion calibration
   double travel = 0;
   std::string pose;
   fs::path board;
-  fs::path laser;          ///< empty: the stripe is in the board's image, or there is none (motion)
+  fs::path laser;  ///< empty: the stripe is in the board's image, or there is none (motion)
 };
 
 struct ViewResult {
@@ -35,12 +35,14 @@ struct ViewResult {
   std::vector<RejectedImage> rejected;
 };
 
-/// Pairs board and laser images by the text that the '*' stands for; a laser image alone is reported, not used.
+/// Pairs board and laser images by the text that the '*' stands for; a laser image alone is reported, not
+/// used.
 std::vector<ViewTask> sensor_tasks(const Session& session, int index, std::vector<RejectedImage>& rejected) {
   const SessionSensor& sensor = session.sensors[static_cast<std::size_t>(index)];
   std::map<std::string, fs::path> lasers;
   if (sensor.laser)
-    for (const auto& file : list_files(session.folder, *sensor.laser)) lasers[matched_text(*sensor.laser, file)] = file;
+    for (const auto& file : list_files(session.folder, *sensor.laser))
+      lasers[matched_text(*sensor.laser, file)] = file;
   std::vector<ViewTask> tasks;
   for (const auto& file : list_files(session.folder, sensor.board)) {
     ViewTask task;
@@ -52,7 +54,8 @@ std::vector<ViewTask> sensor_tasks(const Session& session, int index, std::vecto
       task.laser = partner->second;
       lasers.erase(partner);
     } else if (sensor.laser) {
-      rejected.push_back({sensor.name, file.filename().string(), "no laser image of the same pose: its corners count, no stripe"});
+      rejected.push_back({sensor.name, file.filename().string(),
+                          "no laser image of the same pose: its corners count, no stripe"});
     }
     tasks.push_back(std::move(task));
   }
@@ -73,7 +76,8 @@ std::vector<ViewTask> motion_tasks(const Session& session) {
   for (const auto& file : list_files(session.folder, motion.board)) {
     const auto row = travel.find(file.filename().string());
     if (row == travel.end())
-      throw Error(table.string(), "has no row for " + file.filename().string(), "add its position, or move the image away");
+      throw Error(table.string(), "has no row for " + file.filename().string(),
+                  "add its position, or move the image away");
     ViewTask task;
     task.sensor = static_cast<int>(sensor - session.sensors.begin());
     task.motion = true;
@@ -85,7 +89,8 @@ std::vector<ViewTask> motion_tasks(const Session& session) {
   return tasks;
 }
 
-/// The board in a picture that may show the laser as well: of colour pictures other channels are tried where grey fails.
+/// The board in a picture that may show the laser as well: of colour pictures other channels are tried where
+/// grey fails.
 BoardDetection find_board(const fs::path& file, const Session& session, Image8& image) {
   const bool automatic = session.channel == Channel::kAuto || enum_name(session.channel).ends_with("-excess");
   image = read_image(file, automatic ? Channel::kGray : session.channel);
@@ -120,12 +125,14 @@ ViewResult observe_view(const ViewTask& task, const Session& session, const Extr
     const Image8 laser = read_image(single ? task.board : task.laser, session.channel, &channel);
     if (laser.width != board.width || laser.height != board.height)
       throw Error(task.laser.string(),
-                  fmt::format("is {} x {} px, its board image {} x {}", laser.width, laser.height, board.width, board.height),
+                  fmt::format("is {} x {} px, its board image {} x {}", laser.width, laser.height,
+                              board.width, board.height),
                   "give images of one camera and one setting");
     // The difference of the pair needs the same channel in both; a single picture has nothing to subtract.
     const Image8 dark = single ? Image8() : read_image(task.board, channel);
-    const StripeOnBoard stripe = find_stripe_on_board(laser, single ? ImageView8() : dark.view(), detection.corners,
-                                                      session.target, sensor.laser_planes, extraction);
+    const StripeOnBoard stripe =
+        find_stripe_on_board(laser, single ? ImageView8() : dark.view(), detection.corners, session.target,
+                             sensor.laser_planes, extraction);
     view.stripes = stripe.planes;
     result.picture.stripes = stripe.planes;
     if (!stripe.reason.empty()) result.picture.reason = "stripe: " + stripe.reason;
@@ -144,7 +151,8 @@ CalibrationObservations empty_observations(const Session& session) {
     seen.name = sensor.name;
     seen.laser_planes = sensor.laser_planes;
     if (sensor.camera)
-      seen.given_camera = GivenCamera{read_camera_file((session.folder / *sensor.camera).string()), sensor.camera_fixed};
+      seen.given_camera =
+          GivenCamera{read_camera_file((session.folder / *sensor.camera).string()), sensor.camera_fixed};
     observations.sensors.push_back(std::move(seen));
   }
   if (session.motion) {
@@ -165,16 +173,16 @@ void check_size(SensorObservations& sensor, const ViewTask& task, const ViewResu
   }
   if (sensor.width != result.width || sensor.height != result.height)
     throw Error(task.board.string(),
-                fmt::format("is {} x {} px, the sensor's other images {} x {}", result.width, result.height, sensor.width,
-                            sensor.height),
+                fmt::format("is {} x {} px, the sensor's other images {} x {}", result.width, result.height,
+                            sensor.width, sensor.height),
                 "give images of one camera and one setting");
   if (!sensor.given_camera) return;
   Camera& camera = sensor.given_camera->camera;
   if (camera.width == 0) camera.width = sensor.width, camera.height = sensor.height;
   if (camera.width != sensor.width || camera.height != sensor.height)
     throw Error(task.board.string(),
-                fmt::format("is {} x {} px, the given camera of {} {} x {}", sensor.width, sensor.height, sensor.name,
-                            camera.width, camera.height),
+                fmt::format("is {} x {} px, the given camera of {} {} x {}", sensor.width, sensor.height,
+                            sensor.name, camera.width, camera.height),
                 "give the camera of this picture size");
 }
 
@@ -185,7 +193,8 @@ SessionObservations observe_session(const Session& session, const ExtractionOpti
   SessionObservations seen;
   std::vector<ViewTask> tasks;
   for (std::size_t i = 0; i < session.sensors.size(); ++i)
-    for (auto& task : sensor_tasks(session, static_cast<int>(i), seen.rejected)) tasks.push_back(std::move(task));
+    for (auto& task : sensor_tasks(session, static_cast<int>(i), seen.rejected))
+      tasks.push_back(std::move(task));
   for (auto& task : motion_tasks(session)) tasks.push_back(std::move(task));
 
   std::vector<ViewResult> results(tasks.size());

@@ -16,11 +16,12 @@ struct Span {
   float low, high;
 };
 
-/// The middle 99.8 % of the values, and no farther from the middle 90 % than these span: stray points must not shrink
-/// the picture.
+/// The middle 99.8 % of the values, and no farther from the middle 90 % than these span: stray points must
+/// not shrink the picture.
 Span robust_span(std::vector<float> values) {
   const auto quantile = [&](double part) {
-    const auto at = values.begin() + static_cast<std::ptrdiff_t>(part * static_cast<double>(values.size() - 1));
+    const auto at =
+        values.begin() + static_cast<std::ptrdiff_t>(part * static_cast<double>(values.size() - 1));
     std::nth_element(values.begin(), at, values.end());
     return *at;
   };
@@ -29,10 +30,12 @@ Span robust_span(std::vector<float> values) {
 }
 
 /// Points to (right, up, towards the viewer).
-std::vector<Eigen::Vector3f> as_seen(const std::vector<Eigen::Vector3f>& points, double azimuth_deg, double elevation_deg) {
-  const double azimuth = azimuth_deg * std::numbers::pi / 180, elevation = elevation_deg * std::numbers::pi / 180;
-  const Eigen::Vector3d towards(std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth),
-                                std::sin(elevation));
+std::vector<Eigen::Vector3f> as_seen(const std::vector<Eigen::Vector3f>& points, double azimuth_deg,
+                                     double elevation_deg) {
+  const double azimuth = azimuth_deg * std::numbers::pi / 180,
+               elevation = elevation_deg * std::numbers::pi / 180;
+  const Eigen::Vector3d towards(std::cos(elevation) * std::cos(azimuth),
+                                std::cos(elevation) * std::sin(azimuth), std::sin(elevation));
   const Eigen::Vector3d right = Eigen::Vector3d::UnitZ().cross(towards).normalized();
   Eigen::Matrix3d view;
   view << right.transpose(), towards.cross(right).transpose(), towards.transpose();
@@ -61,17 +64,22 @@ cv::Mat3b height_colors() {
 }
 
 /// Each point as 2 x 2 pixels, coloured by z; the nearest to the viewer stays.
-void draw_points(cv::Mat3b& canvas, const std::vector<Eigen::Vector3f>& points, const std::vector<Eigen::Vector3f>& seen) {
+void draw_points(cv::Mat3b& canvas, const std::vector<Eigen::Vector3f>& points,
+                 const std::vector<Eigen::Vector3f>& seen) {
   const Span across = robust_span(coordinate(seen, 0)), up = robust_span(coordinate(seen, 1));
   const Span height = robust_span(coordinate(points, 2));
   const auto room = [](int pixels) { return static_cast<float>(pixels - 2 * kMargin); };
-  const float scale = std::min(room(canvas.cols) / (across.high - across.low), room(canvas.rows) / (up.high - up.low));
+  const float scale =
+      std::min(room(canvas.cols) / (across.high - across.low), room(canvas.rows) / (up.high - up.low));
   const cv::Mat3b colors = height_colors();
   cv::Mat1f nearest(canvas.size(), -std::numeric_limits<float>::max());
   for (std::size_t i = 0; i < seen.size(); ++i) {
-    const float px = static_cast<float>(canvas.cols) / 2 + scale * (seen[i].x() - (across.low + across.high) / 2);
+    const float px =
+        static_cast<float>(canvas.cols) / 2 + scale * (seen[i].x() - (across.low + across.high) / 2);
     const float py = static_cast<float>(canvas.rows) / 2 - scale * (seen[i].y() - (up.low + up.high) / 2);
-    if (!(px >= 0 && py >= 0 && px < static_cast<float>(canvas.cols - 1) && py < static_cast<float>(canvas.rows - 1))) continue;
+    if (!(px >= 0 && py >= 0 && px < static_cast<float>(canvas.cols - 1) &&
+          py < static_cast<float>(canvas.rows - 1)))
+      continue;
     const float part = std::clamp((points[i].z() - height.low) / (height.high - height.low), 0.0F, 1.0F);
     for (int corner = 0; corner < 4; ++corner) {
       const int x = static_cast<int>(px) + corner % 2, y = static_cast<int>(py) + corner / 2;
@@ -83,7 +91,8 @@ void draw_points(cv::Mat3b& canvas, const std::vector<Eigen::Vector3f>& points, 
 }
 
 cv::Mat3b as_mat(const RgbPicture& picture) {
-  return cv::Mat3b(picture.height, picture.width, reinterpret_cast<cv::Vec3b*>(const_cast<std::uint8_t*>(picture.pixels.data())));
+  return cv::Mat3b(picture.height, picture.width,
+                   reinterpret_cast<cv::Vec3b*>(const_cast<std::uint8_t*>(picture.pixels.data())));
 }
 
 }  // namespace
@@ -112,9 +121,12 @@ RgbPicture compose_overview(const std::vector<RgbPicture>& top, const RgbPicture
   const int row = top[0].height * cell / top[0].width;
   cv::Mat3b canvas(row + bottom.height, bottom.width, cv::Vec3b(0, 0, 0));
   for (std::size_t i = 0; i < top.size(); ++i)
-    cv::resize(as_mat(top[i]), canvas(cv::Rect(static_cast<int>(i) * cell, 0, cell, row)), cv::Size(cell, row), 0, 0, cv::INTER_AREA);
+    cv::resize(as_mat(top[i]), canvas(cv::Rect(static_cast<int>(i) * cell, 0, cell, row)),
+               cv::Size(cell, row), 0, 0, cv::INTER_AREA);
   as_mat(bottom).copyTo(canvas(cv::Rect(0, row, bottom.width, bottom.height)));
-  return {{canvas.ptr<std::uint8_t>(), canvas.ptr<std::uint8_t>() + canvas.total() * 3}, canvas.cols, canvas.rows};
+  return {{canvas.ptr<std::uint8_t>(), canvas.ptr<std::uint8_t>() + canvas.total() * 3},
+          canvas.cols,
+          canvas.rows};
 }
 
 }  // namespace lightstripe

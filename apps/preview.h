@@ -23,7 +23,8 @@ class CloudPreview {
  public:
   void add(const Profile& profile);
   /// The cloud from `azimuth_deg` (about z, from x) and `elevation_deg` (above the x-y plane).
-  RgbPicture draw(int width = 1200, int height = 800, double azimuth_deg = -60, double elevation_deg = 30) const;
+  RgbPicture draw(int width = 1200, int height = 800, double azimuth_deg = -60,
+                  double elevation_deg = 30) const;
 
  private:
   static constexpr std::size_t kMaxPoints = 1'000'000;

@@ -11,15 +11,16 @@ namespace lightstripe {
 
 using std::chrono::steady_clock;
 
-std::string progress_line(const std::string& verb, const std::string& unit, std::int64_t done, std::int64_t total,
-                          double seconds) {
+std::string progress_line(const std::string& verb, const std::string& unit, std::int64_t done,
+                          std::int64_t total, double seconds) {
   constexpr int kBarWidth = 24;
   const double part = total > 0 ? static_cast<double>(done) / static_cast<double>(total) : 1.0;
   const int filled = static_cast<int>(part * kBarWidth);
   const double rate = seconds > 0 ? static_cast<double>(done) / seconds : 0.0;
-  const std::string left = rate > 0 ? fmt::format("{:.0f} s left", static_cast<double>(total - done) / rate) : "";
-  return fmt::format("{} [{:#<{}}{:.<{}}] {}/{} {}, {:.1f}/s, {}", verb, "", filled, "", kBarWidth - filled, done, total,
-                     unit, rate, left);
+  const std::string left =
+      rate > 0 ? fmt::format("{:.0f} s left", static_cast<double>(total - done) / rate) : "";
+  return fmt::format("{} [{:#<{}}{:.<{}}] {}/{} {}, {:.1f}/s, {}", verb, "", filled, "", kBarWidth - filled,
+                     done, total, unit, rate, left);
 }
 
 Progress::Progress(std::string verb, std::string unit, std::int64_t total, bool quiet)

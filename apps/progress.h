@@ -32,7 +32,7 @@ class Progress {
 };
 
 /// The line that is drawn; a function of its own so that it can be tested.
-std::string progress_line(const std::string& verb, const std::string& unit, std::int64_t done, std::int64_t total,
-                          double seconds);
+std::string progress_line(const std::string& verb, const std::string& unit, std::int64_t done,
+                          std::int64_t total, double seconds);
 
 }  // namespace lightstripe

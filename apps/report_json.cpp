@@ -27,7 +27,8 @@ std::string json(std::string_view text) {
 std::string json(double value) { return std::isfinite(value) ? fmt::format("{:.9g}", value) : "0"; }
 
 std::string base64(const std::vector<std::uint8_t>& bytes) {
-  static constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  static constexpr std::string_view kDigits =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::string out;
   out.reserve((bytes.size() + 2) / 3 * 4);
   for (std::size_t i = 0; i < bytes.size(); i += 3) {

@@ -3,10 +3,11 @@
 #include "apps/report_texts.h"
 
 // The assembler takes the files in as they stand: a megabyte of JavaScript is too long for a string literal.
-#define LIGHTSTRIPE_EMBED(name, path)                                          \
-  asm(".section .rodata\n.global " #name "\n" #name ":\n.incbin \"" path "\"\n" \
-      ".global " #name "_end\n" #name "_end:\n.byte 0\n.previous\n");          \
-  extern "C" const char name[];                                                \
+#define LIGHTSTRIPE_EMBED(name, path)                                    \
+  asm(".section .rodata\n.global " #name "\n" #name ":\n.incbin \"" path \
+      "\"\n"                                                             \
+      ".global " #name "_end\n" #name "_end:\n.byte 0\n.previous\n");    \
+  extern "C" const char name[];                                          \
   extern "C" const char name##_end[]
 
 LIGHTSTRIPE_EMBED(lightstripe_report_page, LIGHTSTRIPE_REPORT_PAGE);
@@ -28,6 +29,8 @@ std::string_view report_page() { return between(lightstripe_report_page, lightst
 std::string_view report_script() { return between(lightstripe_report_script, lightstripe_report_script_end); }
 std::string_view chart_library() { return between(lightstripe_chart_library, lightstripe_chart_library_end); }
 std::string_view three_library() { return between(lightstripe_three_library, lightstripe_three_library_end); }
-std::string_view orbit_controls() { return between(lightstripe_orbit_controls, lightstripe_orbit_controls_end); }
+std::string_view orbit_controls() {
+  return between(lightstripe_orbit_controls, lightstripe_orbit_controls_end);
+}
 
 }  // namespace lightstripe

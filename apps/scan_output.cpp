@@ -25,8 +25,7 @@ int open_journal(const fs::path& path) {
   std::error_code ignored;
   if (path.has_parent_path()) fs::create_directories(path.parent_path(), ignored);
   const int journal = ::open(path.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
-  if (journal < 0)
-    cannot_write(path, errno);
+  if (journal < 0) cannot_write(path, errno);
   if (::flock(journal, LOCK_EX | LOCK_NB) == 0) return journal;
   ::close(journal);
   throw Error(path.string(), "another run writes these files", "wait for it, or name another output");

@@ -36,8 +36,8 @@ int run_simulate(const SimulateArguments& arguments) {
   }
   const ThreadLimit limit(arguments.common);
   const SimulationSummary summary = simulate_with_progress(read_scene(arguments.scene), arguments.common);
-  say(arguments.common, fmt::format("{} images; session {}, scan {}, truth {}", summary.images, summary.session.string(),
-                                    summary.scan.string(), summary.truth.string()));
+  say(arguments.common, fmt::format("{} images; session {}, scan {}, truth {}", summary.images,
+                                    summary.session.string(), summary.scan.string(), summary.truth.string()));
   return kExitDone;
 }
 
@@ -52,7 +52,8 @@ void add_simulate_command(CLI::App& app, Command& run) {
   add_common_options(*command, arguments->common, "folder to write to (required)");
   command->callback([command, scene, print, arguments, &run] {
     if (print->count() == 0 && scene->count() == 0) throw CLI::RequiredError("scene");
-    if (print->count() == 0 && command->get_option("--output")->count() == 0) throw CLI::RequiredError("--output");
+    if (print->count() == 0 && command->get_option("--output")->count() == 0)
+      throw CLI::RequiredError("--output");
     run = [arguments] { return run_simulate(*arguments); };
   });
 }

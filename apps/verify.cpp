@@ -19,16 +19,18 @@ struct VerifyArguments {
 };
 
 /// Every sensor of the session is in the rig, with pictures of its size and lines of its laser planes.
-void check_sensors(const VerifyArguments& arguments, const CalibrationObservations& observations, const Rig& rig) {
+void check_sensors(const VerifyArguments& arguments, const CalibrationObservations& observations,
+                   const Rig& rig) {
   for (const auto& seen : observations.sensors) {
-    const auto found =
-        std::find_if(rig.sensors.begin(), rig.sensors.end(), [&](const auto& s) { return s.name == seen.name; });
+    const auto found = std::find_if(rig.sensors.begin(), rig.sensors.end(),
+                                    [&](const auto& s) { return s.name == seen.name; });
     if (found == rig.sensors.end())
-      throw Error(arguments.rig, "has no sensor " + seen.name, "give the rig that was calibrated with these sensors");
+      throw Error(arguments.rig, "has no sensor " + seen.name,
+                  "give the rig that was calibrated with these sensors");
     if (seen.width > 0 && (seen.width != found->camera.width || seen.height != found->camera.height))
       throw Error(arguments.session,
-                  fmt::format("the pictures of {} have {} x {} px, the rig's camera {} x {}", seen.name, seen.width,
-                              seen.height, found->camera.width, found->camera.height),
+                  fmt::format("the pictures of {} have {} x {} px, the rig's camera {} x {}", seen.name,
+                              seen.width, seen.height, found->camera.width, found->camera.height),
                   "verify with pictures of the calibrated camera and setting");
     if (seen.laser_planes != static_cast<int>(found->laser_planes.size()))
       throw Error(arguments.session,
@@ -40,11 +42,12 @@ void check_sensors(const VerifyArguments& arguments, const CalibrationObservatio
 
 std::string csv_of(const Verification& verification) {
   std::string text =
-      "pose,sensor,other,laser_plane,corners,corner_rms_px,stripe_points,plane_mean_mm,plane_rms_mm,plane_max_mm,"
+      "pose,sensor,other,laser_plane,corners,corner_rms_px,stripe_points,plane_mean_mm,plane_rms_mm,plane_"
+      "max_mm,"
       "length_mm,length_error_mm,gap_mm,centre_gap_mm\n";
   for (const auto& v : verification.views) {
-    text += fmt::format("{},{},,{},{},{:.4f},{},", v.pose, v.sensor, v.laser_plane, v.corners, v.corner_rms_px,
-                        v.stripe_points);
+    text += fmt::format("{},{},,{},{},{:.4f},{},", v.pose, v.sensor, v.laser_plane, v.corners,
+                        v.corner_rms_px, v.stripe_points);
     text += v.stripe_points > 0
                 ? fmt::format("{:.5f},{:.5f},{:.5f},", v.plane_mean_mm, v.plane_rms_mm, v.plane_max_mm)
                 : ",,,";
@@ -59,11 +62,13 @@ std::string csv_of(const Verification& verification) {
 std::string describe(const Verification& verification) {
   std::string text;
   for (const auto& s : by_sensor(verification))
-    text += fmt::format("{}: stripe off the board {:.3f} mm, distances along it {:.3f} mm, corners {:.3f} px (rms, {} views)\n",
-                        s.name, s.plane_rms_mm, s.length_error_mm, s.corner_rms_px, s.views);
+    text += fmt::format(
+        "{}: stripe off the board {:.3f} mm, distances along it {:.3f} mm, corners {:.3f} px (rms, {} "
+        "views)\n",
+        s.name, s.plane_rms_mm, s.length_error_mm, s.corner_rms_px, s.views);
   for (const auto& s : by_seam(verification))
-    text += fmt::format("{} to {}: gap {:.3f} mm, board's place {:.3f} mm (rms, {} poses)\n", s.sensor, s.other, s.gap_mm,
-                        s.centre_gap_mm, s.poses);
+    text += fmt::format("{} to {}: gap {:.3f} mm, board's place {:.3f} mm (rms, {} poses)\n", s.sensor,
+                        s.other, s.gap_mm, s.centre_gap_mm, s.poses);
   if (verification.travel_rms_mm)
     text += fmt::format("travel: fixed board within {:.3f} mm rms\n", *verification.travel_rms_mm);
   while (!text.empty() && text.back() == '\n') text.pop_back();
@@ -84,14 +89,18 @@ int verify_session(const VerifyArguments& arguments) {
   check_sensors(arguments, seen.observations, rig);
   const Verification verification = verify_rig(seen.observations, rig);
   say(arguments.common, fmt::format("boards: found in {} of {} images", seen.boards_found, seen.images));
-  for (const auto& image : seen.rejected) warn(fmt::format("{} {}: {}", image.sensor, image.image, image.reason));
+  for (const auto& image : seen.rejected)
+    warn(fmt::format("{} {}: {}", image.sensor, image.image, image.reason));
   const bool measured = std::any_of(verification.views.begin(), verification.views.end(),
                                     [](const auto& view) { return view.stripe_points > 0; });
-  if (!measured) return not_usable("no image of the session shows board and stripe; take pictures of the board in the laser");
+  if (!measured)
+    return not_usable(
+        "no image of the session shows board and stripe; take pictures of the board in the laser");
   say(arguments.common, describe(verification));
   const std::string output = arguments.common.output.empty() ? "verify.csv" : arguments.common.output;
   write_file(output, csv_of(verification));
-  write_run_record(output, "verify", {arguments.session, arguments.rig}, "limits:\n" + indented(dump_yaml(limits)));
+  write_run_record(output, "verify", {arguments.session, arguments.rig},
+                   "limits:\n" + indented(dump_yaml(limits)));
   const auto reasons = exceeded(verification, limits);
   say(arguments.common, (reasons.empty() ? "passed; views -> " : "failed; views -> ") + output);
   std::string all;
@@ -105,7 +114,8 @@ void add_verify_command(CLI::App& app, Command& run) {
   auto* command =
       app.add_subcommand("verify", "accuracy of an existing rig on boards that it was not calibrated with");
   auto arguments = std::make_shared<VerifyArguments>();
-  command->add_option("session", arguments->session, "session (YAML) as for calibrate, with new images")->required();
+  command->add_option("session", arguments->session, "session (YAML) as for calibrate, with new images")
+      ->required();
   command->add_option("--rig", arguments->rig, "the rig to verify")->required();
   add_common_options(*command, arguments->common, "table of the views (default: verify.csv)");
   add_field_options<VerifyLimits>(*command, "", arguments->limits);

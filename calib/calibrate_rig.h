@@ -21,8 +21,8 @@ struct CalibrationOptions {
   double robust_scale = 3.0;            ///< residuals beyond this many sigma lose weight (Huber, then Cauchy)
   double outlier_sigma = 4.5;           ///< residuals beyond this many sigma are left out of the last rounds
   LensModel lens = LensModel::kAuto;  ///< auto: chosen for each sensor by cross-validation, see choose_lens()
-  bool board_warp = true;             ///< find the bow of the board as well; it does not average out over the views
-  int max_iterations = 100;           ///< of each round
+  bool board_warp = true;    ///< find the bow of the board as well; it does not average out over the views
+  int max_iterations = 100;  ///< of each round
   /// The measuring range, depths in the cameras' frames; 0, 0: where boards showed stripes.
   double range_near_mm = 0, range_far_mm = 0;
 };
@@ -37,8 +37,7 @@ void visit_fields(V&& v, CalibrationOptions& o) {
   v("lens", o.lens,
     "pinhole | brown4 | brown5 | rational | thin-prism | tilted | tilted5 | tilted-rational (tilted: "
     "Scheimpflug) | auto: by cross-validation");
-  v("board_warp", o.board_warp,
-    "find the bow of the board along x and y as well; false: the board is flat");
+  v("board_warp", o.board_warp, "find the bow of the board along x and y as well; false: the board is flat");
   v("max_iterations", o.max_iterations, "of each round of the adjustment");
   v("range_near_mm", o.range_near_mm,
     "nearest depth of the measuring range, mm from the camera; 0: not declared");

@@ -36,9 +36,9 @@ struct Continuation {
 /// What is known of a line further in than an end disturbs it.
 struct Inside {
   std::span<const LocalFitPoint> places;  ///< from the end on
-  double sigma_px = 0;               ///< of each
-  double shared = 1;                 ///< points that share their noise
-  std::size_t narrow = 0, wide = 0;  ///< reaches of the two parabolas
+  double sigma_px = 0;                    ///< of each
+  double shared = 1;                      ///< points that share their noise
+  std::size_t narrow = 0, wide = 0;       ///< reaches of the two parabolas
 };
 
 /// The parabolas through the points from `first_good` on, read at `i` before them. The wider one is the

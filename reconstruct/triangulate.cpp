@@ -16,8 +16,8 @@ using Eigen::Matrix3d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-/// Where one pixel changes the range by more than this part of it, ray and plane run so nearly side by side that the
-/// point says nothing: what is seen there is not the laser's light on a surface within reach.
+/// Where one pixel changes the range by more than this part of it, ray and plane run so nearly side by side
+/// that the point says nothing: what is seen there is not the laser's light on a surface within reach.
 constexpr double kMaxRangeChangePerPx = 0.05;
 
 struct PlanePoint {

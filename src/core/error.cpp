@@ -5,7 +5,8 @@
 namespace lightstripe {
 
 void fail_check(const char* condition, const std::string& message, const char* file, int line) {
-  throw std::logic_error(std::string(file) + ":" + std::to_string(line) + ": " + message + " (" + condition + ")");
+  throw std::logic_error(std::string(file) + ":" + std::to_string(line) + ": " + message + " (" + condition +
+                         ")");
 }
 
 }  // namespace lightstripe

@@ -1,12 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The lightstripe authors
 // SPDX-License-Identifier: Apache-2.0
-// How an options struct names its fields, once: the list drives YAML reading and dumping, the command line and tests.
+// How an options struct names its fields, once: the list drives YAML reading and dumping, the command line
+// and tests.
 //
 //   struct SmoothingOptions { double sigma_px = 1.5; };                     // the only place of the default
 //   template <class V> void visit_fields(V&& v, SmoothingOptions& o) { v("sigma_px", o.sigma_px); }
 //
-// A field may be bool, int, double, std::string, an enum with enum_names(), std::optional, std::vector or std::array
-// of these, an Eigen vector, or a struct with visit_fields of its own. A third argument is a comment for dumps and --help.
+// A field may be bool, int, double, std::string, an enum with enum_names(), std::optional, std::vector or
+// std::array of these, an Eigen vector, or a struct with visit_fields of its own. A third argument is a
+// comment for dumps and --help.
 #pragma once
 
 #include <string_view>
@@ -23,9 +25,12 @@ struct AnyVisitor {
 
 /// A struct that lists its fields.
 template <class T>
-concept HasFields = requires(T& object) { visit_fields(detail::AnyVisitor{}, object); };
+concept HasFields = requires(T& object) {
+  visit_fields(detail::AnyVisitor{}, object);
+};
 
-/// One spelling of an enum's value; `constexpr std::array<EnumName<E>, N> enum_names(E)` is found by the enum's namespace.
+/// One spelling of an enum's value; `constexpr std::array<EnumName<E>, N> enum_names(E)` is found by the
+/// enum's namespace.
 template <class E>
 struct EnumName {
   E value;
@@ -33,7 +38,9 @@ struct EnumName {
 };
 
 template <class E>
-concept HasEnumNames = requires(E value) { enum_names(value); };
+concept HasEnumNames = requires(E value) {
+  enum_names(value);
+};
 
 /// The name of an enum's value ("?" if it has none).
 template <HasEnumNames E>

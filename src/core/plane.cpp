@@ -32,7 +32,9 @@ std::optional<Eigen::Vector3d> intersect(const Plane& plane, const Eigen::Vector
   return origin + s * direction;
 }
 
-bool PlaneFit::determined() const { return spread.y() > 0 && spread.y() > 1e-6 * spread.x() && spread.z() < 0.5 * spread.y(); }
+bool PlaneFit::determined() const {
+  return spread.y() > 0 && spread.y() > 1e-6 * spread.x() && spread.z() < 0.5 * spread.y();
+}
 
 PlaneFit fit_plane(std::span<const Eigen::Vector3d> points) {
   LIGHTSTRIPE_CHECK(points.size() >= 3, "a plane needs three points");

@@ -20,17 +20,19 @@ struct Plane {
 Plane canonical(const Plane& plane);
 
 /// The plane as seen from frame a, given it in frame b: a_from_b as rotation matrix and translation.
-Plane transformed(const Plane& plane_b, const Eigen::Matrix3d& rotation_a_from_b, const Eigen::Vector3d& translation_a_from_b);
+Plane transformed(const Plane& plane_b, const Eigen::Matrix3d& rotation_a_from_b,
+                  const Eigen::Vector3d& translation_a_from_b);
 
-/// Where the ray origin + s * direction, s > 0, meets the plane; nothing if it is parallel or the plane lies behind.
+/// Where the ray origin + s * direction, s > 0, meets the plane; nothing if it is parallel or the plane lies
+/// behind.
 std::optional<Eigen::Vector3d> intersect(const Plane& plane, const Eigen::Vector3d& origin,
                                          const Eigen::Vector3d& direction);
 
 struct PlaneFit {
   Plane plane;
-  double rms = 0;                     ///< mm, distances of the points to the plane
-  Eigen::Vector3d spread;             ///< rms extent along the three principal axes, descending, mm
-  bool determined() const;            ///< false where the points lie on one line or at one place
+  double rms = 0;           ///< mm, distances of the points to the plane
+  Eigen::Vector3d spread;   ///< rms extent along the three principal axes, descending, mm
+  bool determined() const;  ///< false where the points lie on one line or at one place
 };
 
 /// Least-squares plane through at least three points.

@@ -12,14 +12,15 @@ namespace lightstripe {
 
 struct ProfilePoint {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< mm, rig frame at travel 0 (or the poses' world)
-  double u = 0, v = 0;     ///< section coordinates, mm: y, z of the rig frame; rotary: along the axis, radius
-  double sigma_mm = 0;     ///< predicted 1-sigma error in the section
-  float intensity = 0;     ///< peak grey level above the background
-  int sensor = 0;          ///< index into Rig::sensors
-  int line = 0;            ///< stripe, counted from 0 in each frame and sensor
+  double u = 0, v = 0;  ///< section coordinates, mm: y, z of the rig frame; rotary: along the axis, radius
+  double sigma_mm = 0;  ///< predicted 1-sigma error in the section
+  float intensity = 0;  ///< peak grey level above the background
+  int sensor = 0;       ///< index into Rig::sensors
+  int line = 0;         ///< stripe, counted from 0 in each frame and sensor
 };
 
-/// All points of one frame, sensors in the rig's order, lines in the order of extraction, points along the line.
+/// All points of one frame, sensors in the rig's order, lines in the order of extraction, points along the
+/// line.
 struct Profile {
   std::int64_t frame = 0;
   double travel = 0;  ///< mm or degrees; missing with poses (0)

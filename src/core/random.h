@@ -20,7 +20,8 @@ inline std::uint64_t scatter_bits(std::uint64_t z) {
 /// A stream of numbers; copies are cheap and start where the original stands.
 class Random {
  public:
-  explicit Random(std::uint64_t seed, std::uint64_t stream = 0) : state_(scatter_bits(seed ^ scatter_bits(stream))) {}
+  explicit Random(std::uint64_t seed, std::uint64_t stream = 0)
+      : state_(scatter_bits(seed ^ scatter_bits(stream))) {}
 
   std::uint64_t bits() { return scatter_bits(state_++); }
   /// In [0, 1).

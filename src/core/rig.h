@@ -53,11 +53,13 @@ struct SensorQuality {
 /// How far the rig can be trusted; empty where it is not known (a rig written by hand).
 struct RigQuality {
   std::vector<SensorQuality> sensors;
-  std::map<std::string, double> sigma;      ///< 1-sigma of every parameter by name, e.g. "gauge.camera.fx"
-  double section_shape_sigma_mm = 0;        ///< predicted, rms over the measuring area, after a rigid move; 0 = unknown
-  double section_absolute_sigma_mm = 0;     ///< predicted, rms over the measuring area; 0 = unknown
-  double cross_validation_ratio = 0;        ///< sections by two halves of the views: difference over prediction; 0 = unknown
-  std::string weakest;                      ///< the least certain direction, in words
+  std::map<std::string, double> sigma;  ///< 1-sigma of every parameter by name, e.g. "gauge.camera.fx"
+  double section_shape_sigma_mm =
+      0;  ///< predicted, rms over the measuring area, after a rigid move; 0 = unknown
+  double section_absolute_sigma_mm = 0;  ///< predicted, rms over the measuring area; 0 = unknown
+  double cross_validation_ratio =
+      0;                ///< sections by two halves of the views: difference over prediction; 0 = unknown
+  std::string weakest;  ///< the least certain direction, in words
   std::vector<std::string> warnings;
 };
 
@@ -67,8 +69,8 @@ struct Rig {
   RigQuality quality;
 };
 
-/// The rotation rig_from_camera whose x is `x_cam` (travel) and whose z is the `up_cam` hint made orthogonal to it;
-/// y = z cross x. Both vectors in the first sensor's camera frame; they must not be parallel.
+/// The rotation rig_from_camera whose x is `x_cam` (travel) and whose z is the `up_cam` hint made orthogonal
+/// to it; y = z cross x. Both vectors in the first sensor's camera frame; they must not be parallel.
 Eigen::Quaterniond rig_rotation(const Eigen::Vector3d& x_cam, const Eigen::Vector3d& up_cam);
 
 }  // namespace lightstripe

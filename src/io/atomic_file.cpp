@@ -67,8 +67,7 @@ fs::path create_beside(const fs::path& path) {
                                                           attempt, path.extension().string());
     const Descriptor created(::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
     if (created.get() >= 0) return temporary;
-    if (errno != EEXIST || attempt == 10000)
-      cannot_write(path, errno);
+    if (errno != EEXIST || attempt == 10000) cannot_write(path, errno);
   }
 }
 
@@ -97,8 +96,7 @@ void AtomicFile::commit() {
   if (committed_) return;
   std::error_code error;
   fs::rename(temporary_, path_, error);
-  if (error)
-    cannot_write(path_, error.value());
+  if (error) cannot_write(path_, error.value());
   committed_ = true;
 }
 

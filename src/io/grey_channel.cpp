@@ -74,8 +74,8 @@ double peak_above_median(const cv::Mat& grey) {
   return level_reached_by(std::min(bright, total)) - level_reached_by(total / 2 + 1);
 }
 
-/// Whether the line's own channel is clipped, so that the other channels catch up in the line's core and the excess has
-/// its light at the line's two edges only.
+/// Whether the line's own channel is clipped, so that the other channels catch up in the line's core and the
+/// excess has its light at the line's two edges only.
 bool is_hollow(const std::array<cv::Mat, 3>& bgr, std::size_t plane, double peak) {
   constexpr double kClipped = 250, kDepth = 60;  // grey levels
   constexpr int kWidestCore = 15;                // px

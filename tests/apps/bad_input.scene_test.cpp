@@ -49,7 +49,8 @@ std::vector<Case> read_cases() {
 class BadInput : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
-    setenv("GCOV_ERROR_FILE", "/dev/null", 1);  // of a coverage build, which cannot write its counts as nobody
+    setenv("GCOV_ERROR_FILE", "/dev/null",
+           1);  // of a coverage build, which cannot write its counts as nobody
     folder_ = new TemporaryFolder;
     const std::string scan =
         "reconstruct " + quoted(good() / "scan.yaml") + " --rig " + quoted(good() / "truth/rig.yaml");

@@ -112,20 +112,25 @@ TEST_F(Cli, FilesOnStandardOutputOnlyWhenNotQuiet) {
 }
 
 TEST_F(Cli, VerifyMeasuresTheBoardsAndPasses) {
-  const auto result = run_lightstripe("verify " + quoted(data() / "calibration.yaml") + " --rig " + quoted(data() / "rig.yaml") +
-                                      " -o " + quoted(out_ / "verify.csv") + " --max-plane-rms-mm 1");
+  const auto result = run_lightstripe("verify " + quoted(data() / "calibration.yaml") + " --rig " +
+                                      quoted(data() / "rig.yaml") + " -o " + quoted(out_ / "verify.csv") +
+                                      " --max-plane-rms-mm 1");
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_THAT(result.out, HasSubstr("solo: stripe off the board"));
   EXPECT_THAT(result.out, HasSubstr("passed"));
   const std::string rows = text_of(out_ / "verify.csv");
-  EXPECT_THAT(rows, StartsWith("pose,sensor,other,laser_plane,corners,corner_rms_px,stripe_points,plane_mean_mm,plane_rms_mm,"
-                               "plane_max_mm,length_mm,length_error_mm,gap_mm,centre_gap_mm\n"));
+  EXPECT_THAT(
+      rows,
+      StartsWith(
+          "pose,sensor,other,laser_plane,corners,corner_rms_px,stripe_points,plane_mean_mm,plane_rms_mm,"
+          "plane_max_mm,length_mm,length_error_mm,gap_mm,centre_gap_mm\n"));
   EXPECT_GE(std::count(rows.begin(), rows.end(), '\n'), 9);
 }
 
 TEST_F(Cli, VerifyFailsBeyondALimitAndSaysWhich) {
-  const auto result = run_lightstripe("verify " + quoted(data() / "calibration.yaml") + " --rig " + quoted(data() / "rig.yaml") +
-                                      " -o " + quoted(out_ / "verify.csv") + " --max-plane-rms-mm 0.000001");
+  const auto result = run_lightstripe("verify " + quoted(data() / "calibration.yaml") + " --rig " +
+                                      quoted(data() / "rig.yaml") + " -o " + quoted(out_ / "verify.csv") +
+                                      " --max-plane-rms-mm 0.000001");
   EXPECT_EQ(result.exit_code, 3);
   EXPECT_THAT(result.err, HasSubstr("not usable: solo: stripe off the board's plane: "));
   EXPECT_TRUE(fs::exists(out_ / "verify.csv"));
@@ -136,8 +141,8 @@ TEST_F(Cli, VerifyNamesASensorThatTheRigHasNot) {
   const auto at = text.find("name: solo");
   ASSERT_NE(at, std::string::npos);
   write_text(out_ / "rig.yaml", text.replace(at, 10, "name: duo"));
-  const auto result = run_lightstripe("verify --quiet " + quoted(data() / "calibration.yaml") + " --rig " + quoted(out_ / "rig.yaml") +
-                                      " -o " + quoted(out_ / "verify.csv"));
+  const auto result = run_lightstripe("verify --quiet " + quoted(data() / "calibration.yaml") + " --rig " +
+                                      quoted(out_ / "rig.yaml") + " -o " + quoted(out_ / "verify.csv"));
   expect_error(result, 1, "has no sensor solo");
 }
 
@@ -145,22 +150,26 @@ TEST_F(Cli, VerifyNamesASensorThatTheRigHasNot) {
 std::optional<std::string> rendered(const fs::path& page) {
   if (std::system("command -v chromium >/dev/null 2>&1") != 0) return std::nullopt;  // NOLINT(cert-env33-c)
   const TemporaryFolder folder;
-  const std::string command = "timeout 60 chromium --headless --no-sandbox --use-angle=swiftshader --enable-unsafe-swiftshader "
-                              "--virtual-time-budget=15000 --user-data-dir=" + quoted(folder / "profile") + " --dump-dom " +
-                              quoted(fs::path("file://" + page.string())) + " >" + quoted(folder / "dom") + " 2>/dev/null";
+  const std::string command =
+      "timeout 60 chromium --headless --no-sandbox --use-angle=swiftshader --enable-unsafe-swiftshader "
+      "--virtual-time-budget=15000 --user-data-dir=" +
+      quoted(folder / "profile") + " --dump-dom " + quoted(fs::path("file://" + page.string())) + " >" +
+      quoted(folder / "dom") + " 2>/dev/null";
   if (std::system(command.c_str()) != 0) return std::nullopt;  // NOLINT(cert-env33-c)
   return text_of(folder / "dom");
 }
 
 TEST_F(Cli, CalibrationReportOpensOfflineInABrowser) {
-  const auto result = run_lightstripe("calibrate " + quoted(data() / "calibration.yaml") + " -o " + quoted(out_ / "rig.yaml") +
-                                      " --report " + quoted(out_ / "calibration.html") + " --cameras " + quoted(out_ / "cameras"));
+  const auto result = run_lightstripe(
+      "calibrate " + quoted(data() / "calibration.yaml") + " -o " + quoted(out_ / "rig.yaml") + " --report " +
+      quoted(out_ / "calibration.html") + " --cameras " + quoted(out_ / "cameras"));
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_TRUE(fs::exists(out_ / "cameras/solo.opencv.yaml"));
   EXPECT_TRUE(fs::exists(out_ / "cameras/solo.ros.yaml"));
   EXPECT_TRUE(fs::exists(out_ / "cameras/solo.cameramodel"));
   const std::string page = text_of(out_ / "calibration.html");
-  for (const std::string outside : {"src=\"http", "href=\"http", "@import"}) EXPECT_EQ(page.find(outside), std::string::npos) << outside;
+  for (const std::string outside : {"src=\"http", "href=\"http", "@import"})
+    EXPECT_EQ(page.find(outside), std::string::npos) << outside;
   const auto dom = rendered(out_ / "calibration.html");
   if (!dom) GTEST_SKIP() << "no chromium here";
   EXPECT_THAT(*dom, HasSubstr("data-ready=\"yes\""));  // set by the last line of its script
@@ -174,12 +183,15 @@ TEST_F(Cli, GivenCameraIsKept) {
   ASSERT_NE(at, std::string::npos) << text;
   text.replace(at, 10, "name: solo, camera: \"truth/rig.yaml#solo\"");
   write_text(data() / "given.yaml", text);
-  const auto result = run_lightstripe("calibrate " + quoted(data() / "given.yaml") + " -o " + quoted(out_ / "rig.yaml"));
+  const auto result =
+      run_lightstripe("calibrate " + quoted(data() / "given.yaml") + " -o " + quoted(out_ / "rig.yaml"));
   ASSERT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_EQ(read_rig(out_ / "rig.yaml").sensors[0].camera.fx, read_rig(data() / "truth/rig.yaml").sensors[0].camera.fx);
+  EXPECT_EQ(read_rig(out_ / "rig.yaml").sensors[0].camera.fx,
+            read_rig(data() / "truth/rig.yaml").sensors[0].camera.fx);
 }
 
-// ---- the world is wrong: exit code 1 -----------------------------------------------------------------------------
+// ---- the world is wrong: exit code 1
+// -----------------------------------------------------------------------------
 
 TEST_F(Cli, MissingSessionIsNamed) {
   expect_error(run_lightstripe("calibrate " + quoted(out_ / "none.yaml")), 1, "none.yaml");

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The lightstripe authors
 // SPDX-License-Identifier: Apache-2.0
-// The real pot on its turntable (shared/data/pot) through the command line: calibrate from the board, then reconstruct.
+// The real pot on its turntable (shared/data/pot) through the command line: calibrate from the board, then
+// reconstruct.
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
@@ -30,7 +31,8 @@ FlatFit fit_table(std::vector<Eigen::Vector3d> points) {
     Eigen::Vector3d mean = Eigen::Vector3d::Zero();
     for (const auto& p : points) mean += p / static_cast<double>(points.size());
     Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
-    for (const auto& p : points) scatter += (p - mean) * (p - mean).transpose() / static_cast<double>(points.size());
+    for (const auto& p : points)
+      scatter += (p - mean) * (p - mean).transpose() / static_cast<double>(points.size());
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(scatter);
     fit = {eigen.eigenvectors().col(0), mean.z(), std::sqrt(eigen.eigenvalues()[0]), points.size()};
     std::erase_if(points, [&](const auto& p) { return std::abs(fit.normal.dot(p - mean)) > 3 * fit.rms_mm; });
@@ -42,14 +44,17 @@ struct PotScan : testing::Test {
   void SetUp() override {
     if (!fs::exists(kPot)) GTEST_SKIP() << "no data in " << kPot;
     const std::string folder = fs::canonical(kPot).string();
-    // poses.csv belongs to a camera that was calibrated with the board taken as flat, and only such a camera fits it.
+    // poses.csv belongs to a camera that was calibrated with the board taken as flat, and only such a camera
+    // fits it.
     write_text(out_ / "session.yaml",
                "calibration: {board_warp: false}\n"
                "target: {type: checkerboard, inner_corners: [11, 7], square: [21.167, 21.125]}\n"
-               "sensors:\n  - {name: pot, board: '" + folder + "/board/*.png'}\n");
-    write_text(out_ / "scan.yaml",
-               "rig: rig.yaml\nframes: {pot: '" + folder + "/scan/*.png'}\n"
-               "travel: {poses: '" + folder + "/poses.csv', of: pot}\n");
+               "sensors:\n  - {name: pot, board: '" +
+                   folder + "/board/*.png'}\n");
+    write_text(out_ / "scan.yaml", "rig: rig.yaml\nframes: {pot: '" + folder +
+                                       "/scan/*.png'}\n"
+                                       "travel: {poses: '" +
+                                       folder + "/poses.csv', of: pot}\n");
   }
   TemporaryFolder out_;
 };
@@ -58,12 +63,13 @@ TEST_F(PotScan, IsAPotOnATableAndNotNoise) {
   const CommandResult calibrated =
       run_lightstripe("calibrate " + quoted(out_ / "session.yaml") + " -o " + quoted(out_ / "rig.yaml"));
   ASSERT_EQ(calibrated.exit_code, 0) << calibrated.err;
-  const CommandResult done = run_lightstripe("reconstruct " + quoted(out_ / "scan.yaml") + " -o " + quoted(out_ / "cloud.ply") +
-                                             " --profiles " + quoted(out_ / "profiles.csv"));
+  const CommandResult done =
+      run_lightstripe("reconstruct " + quoted(out_ / "scan.yaml") + " -o " + quoted(out_ / "cloud.ply") +
+                      " --profiles " + quoted(out_ / "profiles.csv"));
   ASSERT_EQ(done.exit_code, 0) << done.err;
 
-  // The table lies a few millimetres below the world's z = 0 (the code grid's scale in poses.csv is not ours), the pot on
-  // it within 150 mm of its axis, less than 200 mm high.
+  // The table lies a few millimetres below the world's z = 0 (the code grid's scale in poses.csv is not
+  // ours), the pot on it within 150 mm of its axis, less than 200 mm high.
   std::vector<Eigen::Vector3d> table;
   std::size_t pot = 0, below = 0, all = 0;
   for (const auto& profile : read_profiles(out_ / "profiles.csv")) {
@@ -76,17 +82,17 @@ TEST_F(PotScan, IsAPotOnATableAndNotNoise) {
       if (p.z() < -15 && from_axis < 350) ++below;
     }
   }
-  EXPECT_GT(all, 25000U);   // of 36 frames
+  EXPECT_GT(all, 25000U);  // of 36 frames
   EXPECT_GT(table.size(), 6000U);
   EXPECT_GT(pot, 8000U);
   EXPECT_LT(static_cast<double>(below), 0.005 * static_cast<double>(all)) << "nothing is below the table";
   const FlatFit fit = fit_table(table);
   RecordProperty("table_rms_mm", std::to_string(fit.rms_mm));
   EXPECT_LT(std::acos(std::min(1.0, std::abs(fit.normal.z()))) * 180 / M_PI, 0.2);
-  // The frames' mean heights scatter by 0.28 mm (poses.csv, 0.5 px), each frame's line by 0.3 mm (the laser on printed
-  // codes), and the camera that poses.csv was made with differs from ours by 3 px in the principal point: over lines of
-  // 150 mm at 550 mm that tilts each by up to 0.2 degrees, 0.4 mm. Together 0.57 mm; each
-  // of the three is known to a quarter.
+  // The frames' mean heights scatter by 0.28 mm (poses.csv, 0.5 px), each frame's line by 0.3 mm (the laser
+  // on printed codes), and the camera that poses.csv was made with differs from ours by 3 px in the principal
+  // point: over lines of 150 mm at 550 mm that tilts each by up to 0.2 degrees, 0.4 mm. Together 0.57 mm;
+  // each of the three is known to a quarter.
   EXPECT_LT(fit.rms_mm, 0.7) << fit.points << " points at z = " << fit.height_mm;
 }
 

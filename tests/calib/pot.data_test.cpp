@@ -59,8 +59,8 @@ TEST(Pot, TheBoardIsBowedAndTheCornersFitBetterWithIt) {
   options.board_warp = true;
   const auto result = calibrate_rig(observations, options);
   ASSERT_TRUE(result.summary.usable) << result.summary.message;
-  // 0.199 px with a flat board, 0.166 px with one that is bowed by 0.37 mm over its 212 mm; the laser plane then
-  // differs by 0.36 degrees from the reference above.
+  // 0.199 px with a flat board, 0.166 px with one that is bowed by 0.37 mm over its 212 mm; the laser plane
+  // then differs by 0.36 degrees from the reference above.
   EXPECT_LT(result.rig.quality.sensors[0].board_rms_px, 0.18);
   EXPECT_NEAR(result.summary.board_warp_mm.x(), -0.37, 0.1);
   EXPECT_NEAR(result.rig.sensors[0].laser_planes[0].offset, 122.78, 1);

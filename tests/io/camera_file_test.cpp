@@ -59,7 +59,8 @@ TEST_F(CameraFile, OpenCvReadsWhatWasWrittenForIt) {
     ASSERT_EQ(K.size(), cv::Size(3, 3));
     EXPECT_EQ(K.at<double>(0, 0), camera.fx);
     EXPECT_EQ(K.at<double>(1, 2), camera.cy);
-    for (int i = 0; i < D.cols; ++i) EXPECT_EQ(D.at<double>(i), camera.distortion[static_cast<std::size_t>(i)]);
+    for (int i = 0; i < D.cols; ++i)
+      EXPECT_EQ(D.at<double>(i), camera.distortion[static_cast<std::size_t>(i)]);
     EXPECT_EQ(D.cols, camera.tilted() ? 14 : 5);
     expect_same(read_camera_file(path), camera);
   }
@@ -122,14 +123,16 @@ TEST_F(CameraFile, WhatAFormatCannotHoldIsRefused) {
 
 TEST_F(CameraFile, BrokenFilesAreNamed) {
   EXPECT_THAT(message_of((folder_ / "none.yaml").string()), HasSubstr("none.yaml"));
-  EXPECT_THAT(message_of(written("a.yaml", "camera_matrix: {rows: 3, cols: 3, data: [1, 2]}\n")), HasSubstr("3 x 3"));
+  EXPECT_THAT(message_of(written("a.yaml", "camera_matrix: {rows: 3, cols: 3, data: [1, 2]}\n")),
+              HasSubstr("3 x 3"));
   EXPECT_THAT(message_of(written("b.yaml", "camera_matrix: {rows: 3, cols: 3, data: [0,0,0,0,0,0,0,0,1]}\n")),
               HasSubstr("focal length"));
-  EXPECT_THAT(message_of(written("c.yaml", "hello: world\n")), HasSubstr("no camera file that lightstripe knows"));
+  EXPECT_THAT(message_of(written("c.yaml", "hello: world\n")),
+              HasSubstr("no camera file that lightstripe knows"));
   EXPECT_THAT(message_of(written("d.xml", "<?xml version=\"1.0\"?>\n<opencv_storage>\n")), HasSubstr("XML"));
-  EXPECT_THAT(message_of(written("e.yaml",
-                                 "distortion_model: equidistant\ncamera_matrix: [1,0,0,0,1,0,0,0,1]\n")),
-              HasSubstr("equidistant"));
+  EXPECT_THAT(
+      message_of(written("e.yaml", "distortion_model: equidistant\ncamera_matrix: [1,0,0,0,1,0,0,0,1]\n")),
+      HasSubstr("equidistant"));
 }
 
 }  // namespace

@@ -143,20 +143,23 @@ TEST(Session, NamesTheKeyThatIsWrong) {
 }
 
 TEST(Session, ReadsACharucoTarget) {
-  EXPECT_THAT(session_complaint(with(kSession, "checkerboard", "charuco")), HasSubstr("target.marker: is missing"));
+  EXPECT_THAT(session_complaint(with(kSession, "checkerboard", "charuco")),
+              HasSubstr("target.marker: is missing"));
   const TempFolder folder;
-  const Session session =
-      read_session(folder.write("s.yaml", with(kSession, "checkerboard", "charuco, marker: 7.5, dictionary: DICT_5X5_100")));
+  const Session session = read_session(folder.write(
+      "s.yaml", with(kSession, "checkerboard", "charuco, marker: 7.5, dictionary: DICT_5X5_100")));
   EXPECT_EQ(session.target.type, TargetType::kCharuco);
   EXPECT_EQ(session.target.marker_mm, 7.5);
   EXPECT_EQ(session.target.dictionary, "DICT_5X5_100");
-  EXPECT_THAT(session_complaint(with(kSession, "checkerboard", "checkerboard, marker: 7")), HasSubstr("say type: charuco"));
+  EXPECT_THAT(session_complaint(with(kSession, "checkerboard", "checkerboard, marker: 7")),
+              HasSubstr("say type: charuco"));
 }
 
 TEST(Session, ReadsGivenCameras) {
   const TempFolder folder;
   const Session session = read_session(folder.write(
-      "s.yaml", with(kSession, "name: gauge", "name: gauge\n    camera: cameras/gauge.yaml\n    camera_fixed: false")));
+      "s.yaml",
+      with(kSession, "name: gauge", "name: gauge\n    camera: cameras/gauge.yaml\n    camera_fixed: false")));
   EXPECT_EQ(session.sensors[0].camera, "cameras/gauge.yaml");
   EXPECT_FALSE(session.sensors[0].camera_fixed);
   EXPECT_FALSE(session.sensors[1].camera);
