@@ -54,6 +54,10 @@ function(lightstripe_library name)
   list(TRANSFORM ARG_DEPS PREPEND lightstripe::)
   target_link_libraries(lightstripe_${name} PUBLIC ${ARG_DEPS} ${ARG_EXTERNAL} PRIVATE $<BUILD_INTERFACE:lightstripe_flags>)
   lightstripe_precompile(lightstripe_${name} ${ARG_PRECOMPILE})
+  if(LIGHTSTRIPE_SANITIZE MATCHES "address|thread" AND name MATCHES "core|simulate")
+    # Tests spend most of their time in rendering; at -O1 Eigen's temporaries are in memory, and each access is checked.
+    target_compile_options(lightstripe_${name} PRIVATE -O2)
+  endif()
   lightstripe_install_library(${name})
 endfunction()
 
