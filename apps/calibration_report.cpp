@@ -11,6 +11,7 @@
 #include "apps/report_json.h"
 #include "apps/report_texts.h"
 #include "calib/diagnosis.h"
+#include "core/task_order.h"
 #include "io/images.h"
 
 namespace lightstripe {
@@ -136,7 +137,9 @@ std::string rig_json(const SessionObservations& seen, const CalibrationResult& r
 std::string pictures_json(const std::vector<SeenPicture>& pictures, bool rejected) {
   constexpr int kWidthPx = 420;
   std::vector<std::string> texts(pictures.size());
+  before_tasks();
   oneapi::tbb::parallel_for(std::size_t{0}, pictures.size(), [&](std::size_t i) {
+    const TaskScope scope;
     const auto& p = pictures[i];
     if (p.reason.empty() == rejected) return;
     const OverlayPicture overlay = draw_board(p, kWidthPx);
@@ -145,6 +148,7 @@ std::string pictures_json(const std::vector<SeenPicture>& pictures, bool rejecte
         json(p.sensor), json(p.image), json(p.reason),
         base64(encode_jpeg(overlay.rgb, overlay.width, overlay.height)));
   });
+  after_tasks();
   JsonList list;
   for (const auto& text : texts)
     if (!text.empty()) list.add(text);

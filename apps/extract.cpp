@@ -14,6 +14,7 @@
 #include "apps/explain.h"
 #include "apps/progress.h"
 #include "core/error.h"
+#include "core/task_order.h"
 #include "extraction/histogram_plot.h"
 #include "extraction/overlay.h"
 #include "extraction/workspace.h"
@@ -110,13 +111,16 @@ int run_extract(const ExtractArguments& arguments) {
   std::size_t lines = 0, points = 0;
   for (std::size_t begin = 0; begin < total; begin += batch) {
     std::vector<Extracted> results(std::min(batch, total - begin));
+    before_tasks();
     oneapi::tbb::parallel_for(std::size_t{0}, results.size(), [&](std::size_t i) {
+      const TaskScope scope;
       const std::size_t index = begin + i;
       results[i] = extract_one(arguments.images[index], channel, options,
                                overlays.empty() ? std::nullopt : std::optional(overlays[index]),
                                arguments.explain, memories.local());
       progress.step();
     });
+    after_tasks();
     for (const auto& result : results) {
       table << result.rows;
       if (!result.explanation.empty()) say(arguments.common, result.explanation);

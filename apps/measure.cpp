@@ -18,6 +18,7 @@
 #include "apps/run_record.h"
 #include "apps/section_drawing.h"
 #include "core/error.h"
+#include "core/task_order.h"
 #include "io/atomic_file.h"
 #include "io/images.h"
 #include "io/rig_file.h"
@@ -172,9 +173,12 @@ MeasureOutcome measure_profiles(const MeasureArguments& arguments) {
   MeasureOutcome outcome;
   outcome.extra_columns = references.extra_columns();
   outcome.rows.resize(input.profiles.size());
+  before_tasks();
   oneapi::tbb::parallel_for(std::size_t{0}, input.profiles.size(), [&](std::size_t i) {
+    const TaskScope scope;
     outcome.rows[i] = references.measure(input.profiles[i], input, options);
   });
+  after_tasks();
   if (arguments.kind == ObjectKind::kWheel) outcome.run_out = find_run_out(outcome.rows);
   for (const MeasuredFrame& row : outcome.rows) {
     outcome.verdicts.push_back(verdict_name(judge(row, limits)));

@@ -9,6 +9,7 @@
 #include "apps/calibrate.h"
 #include "apps/progress.h"
 #include "core/error.h"
+#include "core/task_order.h"
 #include "io/camera_file.h"
 #include "io/images.h"
 #include "io/tables.h"
@@ -199,10 +200,13 @@ SessionObservations observe_session(const Session& session, const ExtractionOpti
 
   std::vector<ViewResult> results(tasks.size());
   Progress progress("looking for boards", "images", static_cast<std::int64_t>(tasks.size()), common.quiet);
+  before_tasks();
   oneapi::tbb::parallel_for(std::size_t{0}, tasks.size(), [&](std::size_t i) {
+    const TaskScope scope;
     results[i] = observe_view(tasks[i], session, extraction);
     progress.step();
   });
+  after_tasks();
 
   seen.observations = empty_observations(session);
   for (std::size_t i = 0; i < tasks.size(); ++i) {

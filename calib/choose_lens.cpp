@@ -11,6 +11,7 @@
 
 #include "calib/reduced_covariance.h"
 #include "calib/solve_problem.h"
+#include "core/task_order.h"
 
 namespace lightstripe {
 namespace {
@@ -152,9 +153,12 @@ LensChoice choose_lens(const InitialValues& values, int sensor, const Calibratio
                                    [&](const auto& v) { return v.sensor == sensor && v.pose >= 0; });
   if (static_cast<std::size_t>(views) < kMinViews) return choice;
   std::array<std::array<std::vector<double>, 2>, kCandidates.size()> halves;
+  before_tasks();
   oneapi::tbb::parallel_for(std::size_t{0}, 2 * kCandidates.size(), [&](std::size_t i) {
+    const TaskScope scope;
     halves[i / 2][i % 2] = held_out_errors(values, sensor, i % 2, kCandidates[i / 2], options.board_warp);
   });
+  after_tasks();
   std::vector<Tried> tried;
   for (std::size_t i = 0; i < kCandidates.size(); ++i) {
     auto errors = halves[i][0];

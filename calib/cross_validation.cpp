@@ -7,6 +7,7 @@
 
 #include "calib/diagnosis.h"
 #include "calib/uncertainty.h"
+#include "core/task_order.h"
 
 namespace lightstripe {
 namespace {
@@ -52,9 +53,12 @@ CrossValidation cross_validate(const Measurements& measurements, const JointAdju
   if (samples.size() < 3) result.why_not = "no stripes";
   if (!result.why_not.empty()) return result;
   std::array<JointAdjustment, 2> adjusted;
+  before_tasks();
   oneapi::tbb::parallel_for(std::size_t{0}, std::size_t{2}, [&](std::size_t i) {
+    const TaskScope scope;
     adjusted[i] = adjust_jointly(halves[i], adjustment.state, adjustment.lenses, options);
   });
+  after_tasks();
   for (const auto& half : adjusted) {
     if (half.converged && half.covariance.size() > 0) continue;
     result.why_not = "half of the views do not determine the rig";

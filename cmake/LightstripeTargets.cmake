@@ -58,10 +58,6 @@ function(lightstripe_library name)
     # Tests spend most of their time in rendering; at -O1 Eigen's temporaries are in memory, and each access is checked.
     target_compile_options(lightstripe_${name} PRIVATE -O2)
   endif()
-  if(LIGHTSTRIPE_SANITIZE STREQUAL "thread" AND name STREQUAL "simulate")
-    # All of it runs in oneTBB's tasks, which TSan cannot follow (scripts/tsan_suppressions.txt): it would take long for nothing.
-    target_compile_options(lightstripe_${name} PRIVATE -fno-sanitize=thread)
-  endif()
   lightstripe_install_library(${name})
 endfunction()
 

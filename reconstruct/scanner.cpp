@@ -11,6 +11,7 @@
 #include <exception>
 
 #include "core/error.h"
+#include "core/task_order.h"
 #include "extraction/workspace.h"
 
 namespace lightstripe {
@@ -119,13 +120,6 @@ std::exception_ptr hand_on(const FrameOutcome& outcome, const FrameSink& sink, S
   return nullptr;
 }
 
-/// Ends each task with a count that the caller reads: oneTBB is not built with TSan, which sees by it alone
-/// that the tasks are over before the caller goes on.
-struct CountedTask {
-  std::atomic<std::int64_t>& finished;
-  ~CountedTask() { finished.fetch_add(1, std::memory_order_acq_rel); }
-};
-
 }  // namespace
 
 ScanSummary scan_profiles(const ScanInput& input, const Rig& rig, const StripeExtractor& extract, int threads,
@@ -134,20 +128,19 @@ ScanSummary scan_profiles(const ScanInput& input, const Rig& rig, const StripeEx
   ScanSummary summary;
   std::int64_t next = input.first_frame;
   std::atomic<bool> failed = false;
-  std::atomic<std::int64_t> finished = 0;
   std::exception_ptr error;
   const auto issue = [&](tbb::flow_control& flow) {
-    const CountedTask counted{finished};
+    const TaskScope scope;
     auto placed = failed ? std::nullopt : next_placed_frame(input, next, summary);
     if (!placed) flow.stop();
     return placed.value_or(PlacedFrame{});
   };
   const auto process = [&](const PlacedFrame& placed) {
-    const CountedTask counted{finished};
+    const TaskScope scope;
     return failed ? FrameOutcome{} : outcome_of_frame(placed, input, rig, extract);
   };
   const auto collect = [&](const FrameOutcome& outcome) {
-    const CountedTask counted{finished};
+    const TaskScope scope;
     if (failed) return;
     error = hand_on(outcome, sink, summary);
     failed = error != nullptr;
@@ -155,12 +148,13 @@ ScanSummary scan_profiles(const ScanInput& input, const Rig& rig, const StripeEx
   tbb::task_arena arena(threads == 0 ? tbb::task_arena::automatic : threads);
   const auto tokens = 2 * static_cast<std::size_t>(arena.max_concurrency());
   arena.execute([&] {
+    before_tasks();
     tbb::parallel_pipeline(
         tokens, tbb::make_filter<void, PlacedFrame>(tbb::filter_mode::serial_in_order, issue) &
                     tbb::make_filter<PlacedFrame, FrameOutcome>(tbb::filter_mode::parallel, process) &
                     tbb::make_filter<FrameOutcome, void>(tbb::filter_mode::serial_in_order, collect));
+    after_tasks();
   });
-  LIGHTSTRIPE_CHECK(finished.load(std::memory_order_acquire) > 0, "the pipeline has not run");
   if (error) std::rethrow_exception(error);
   return summary;
 }

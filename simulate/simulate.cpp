@@ -8,6 +8,7 @@
 
 #include <mutex>
 
+#include "core/task_order.h"
 #include "io/images.h"
 #include "io/rig_file.h"
 #include "simulate/image_plan.h"
@@ -33,14 +34,17 @@ std::uint64_t stream_of(const std::string& name) {
 template <class Work>
 void in_parallel(int threads, std::size_t count, const Work& work) {
   tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
+  before_tasks();
   arena.execute([&] {
     tbb::parallel_for(
         tbb::blocked_range<std::size_t>(0, count, 1),
         [&](const tbb::blocked_range<std::size_t>& range) {
+          const TaskScope scope;
           for (std::size_t i = range.begin(); i < range.end(); ++i) work(i);
         },
         tbb::simple_partitioner());
   });
+  after_tasks();
 }
 
 /// What all images need and none changes.
