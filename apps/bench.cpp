@@ -32,8 +32,8 @@ struct Timing {
   std::string method;
   double median_ms = 0;
   std::size_t points = 0;
-  std::optional<double>
-      found;  ///< part of the reference's points that this method finds; extraction methods only
+  // Of extraction methods only:
+  std::optional<double> found;    ///< part of the reference's points that this method finds
   std::optional<double> besides;  ///< part of its own points that the reference does not have
 };
 
