@@ -71,14 +71,14 @@ OverlayPicture draw_board(const SeenPicture& picture, int max_width_px) {
 }
 
 void write_overlays(const fs::path& folder, const std::vector<SeenPicture>& pictures) {
-  before_tasks();
-  oneapi::tbb::parallel_for(std::size_t{0}, pictures.size(), [&](std::size_t i) {
-    const TaskScope scope;
+  const auto draw_and_write = [&](std::size_t i) {
     const OverlayPicture overlay = draw_board(pictures[i], 0);
     const fs::path file =
         folder / pictures[i].sensor / (fs::path(pictures[i].image).filename().stem().string() + ".png");
     write_rgb_image(file, overlay.rgb, overlay.width, overlay.height);
-  });
+  };
+  before_tasks();
+  oneapi::tbb::parallel_for(std::size_t{0}, pictures.size(), Task(draw_and_write));
   after_tasks();
 }
 

@@ -137,9 +137,7 @@ std::string rig_json(const SessionObservations& seen, const CalibrationResult& r
 std::string pictures_json(const std::vector<SeenPicture>& pictures, bool rejected) {
   constexpr int kWidthPx = 420;
   std::vector<std::string> texts(pictures.size());
-  before_tasks();
-  oneapi::tbb::parallel_for(std::size_t{0}, pictures.size(), [&](std::size_t i) {
-    const TaskScope scope;
+  const auto draw = [&](std::size_t i) {
     const auto& p = pictures[i];
     if (p.reason.empty() == rejected) return;
     const OverlayPicture overlay = draw_board(p, kWidthPx);
@@ -147,7 +145,9 @@ std::string pictures_json(const std::vector<SeenPicture>& pictures, bool rejecte
         "{{\"sensor\": {}, \"image\": {}, \"reason\": {}, \"picture\": \"data:image/jpeg;base64,{}\"}}",
         json(p.sensor), json(p.image), json(p.reason),
         base64(encode_jpeg(overlay.rgb, overlay.width, overlay.height)));
-  });
+  };
+  before_tasks();
+  oneapi::tbb::parallel_for(std::size_t{0}, pictures.size(), Task(draw));
   after_tasks();
   JsonList list;
   for (const auto& text : texts)

@@ -111,15 +111,15 @@ int run_extract(const ExtractArguments& arguments) {
   std::size_t lines = 0, points = 0;
   for (std::size_t begin = 0; begin < total; begin += batch) {
     std::vector<Extracted> results(std::min(batch, total - begin));
-    before_tasks();
-    oneapi::tbb::parallel_for(std::size_t{0}, results.size(), [&](std::size_t i) {
-      const TaskScope scope;
+    const auto extract_image = [&](std::size_t i) {
       const std::size_t index = begin + i;
       results[i] = extract_one(arguments.images[index], channel, options,
                                overlays.empty() ? std::nullopt : std::optional(overlays[index]),
                                arguments.explain, memories.local());
       progress.step();
-    });
+    };
+    before_tasks();
+    oneapi::tbb::parallel_for(std::size_t{0}, results.size(), Task(extract_image));
     after_tasks();
     for (const auto& result : results) {
       table << result.rows;

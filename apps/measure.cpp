@@ -173,11 +173,11 @@ MeasureOutcome measure_profiles(const MeasureArguments& arguments) {
   MeasureOutcome outcome;
   outcome.extra_columns = references.extra_columns();
   outcome.rows.resize(input.profiles.size());
-  before_tasks();
-  oneapi::tbb::parallel_for(std::size_t{0}, input.profiles.size(), [&](std::size_t i) {
-    const TaskScope scope;
+  const auto measure_frame = [&](std::size_t i) {
     outcome.rows[i] = references.measure(input.profiles[i], input, options);
-  });
+  };
+  before_tasks();
+  oneapi::tbb::parallel_for(std::size_t{0}, input.profiles.size(), Task(measure_frame));
   after_tasks();
   if (arguments.kind == ObjectKind::kWheel) outcome.run_out = find_run_out(outcome.rows);
   for (const MeasuredFrame& row : outcome.rows) {

@@ -200,12 +200,12 @@ SessionObservations observe_session(const Session& session, const ExtractionOpti
 
   std::vector<ViewResult> results(tasks.size());
   Progress progress("looking for boards", "images", static_cast<std::int64_t>(tasks.size()), common.quiet);
-  before_tasks();
-  oneapi::tbb::parallel_for(std::size_t{0}, tasks.size(), [&](std::size_t i) {
-    const TaskScope scope;
+  const auto observe = [&](std::size_t i) {
     results[i] = observe_view(tasks[i], session, extraction);
     progress.step();
-  });
+  };
+  before_tasks();
+  oneapi::tbb::parallel_for(std::size_t{0}, tasks.size(), Task(observe));
   after_tasks();
 
   seen.observations = empty_observations(session);

@@ -153,11 +153,11 @@ LensChoice choose_lens(const InitialValues& values, int sensor, const Calibratio
                                    [&](const auto& v) { return v.sensor == sensor && v.pose >= 0; });
   if (static_cast<std::size_t>(views) < kMinViews) return choice;
   std::array<std::array<std::vector<double>, 2>, kCandidates.size()> halves;
-  before_tasks();
-  oneapi::tbb::parallel_for(std::size_t{0}, 2 * kCandidates.size(), [&](std::size_t i) {
-    const TaskScope scope;
+  const auto try_lens = [&](std::size_t i) {
     halves[i / 2][i % 2] = held_out_errors(values, sensor, i % 2, kCandidates[i / 2], options.board_warp);
-  });
+  };
+  before_tasks();
+  oneapi::tbb::parallel_for(std::size_t{0}, 2 * kCandidates.size(), Task(try_lens));
   after_tasks();
   std::vector<Tried> tried;
   for (std::size_t i = 0; i < kCandidates.size(); ++i) {

@@ -53,11 +53,11 @@ CrossValidation cross_validate(const Measurements& measurements, const JointAdju
   if (samples.size() < 3) result.why_not = "no stripes";
   if (!result.why_not.empty()) return result;
   std::array<JointAdjustment, 2> adjusted;
-  before_tasks();
-  oneapi::tbb::parallel_for(std::size_t{0}, std::size_t{2}, [&](std::size_t i) {
-    const TaskScope scope;
+  const auto adjust_half = [&](std::size_t i) {
     adjusted[i] = adjust_jointly(halves[i], adjustment.state, adjustment.lenses, options);
-  });
+  };
+  before_tasks();
+  oneapi::tbb::parallel_for(std::size_t{0}, std::size_t{2}, Task(adjust_half));
   after_tasks();
   for (const auto& half : adjusted) {
     if (half.converged && half.covariance.size() > 0) continue;

@@ -31,6 +31,14 @@ struct FrameOutcome {
   std::exception_ptr error;
 };
 
+/// Where a frame lies from its issue until it has been handed on; there is one for each frame in flight, used
+/// in turn. The pipeline passes its address only: the copies that oneTBB would make of the frame itself lie
+/// outside our tasks, where TSan cannot see their order.
+struct FrameInFlight {
+  PlacedFrame placed;
+  FrameOutcome outcome;
+};
+
 void check_size(const GreyImage& image, const Sensor& sensor, std::int64_t frame) {
   const auto [width, height] = std::visit([](const auto& i) { return std::pair(i.width, i.height); }, image);
   if (width == sensor.camera.width && height == sensor.camera.height) return;
@@ -129,30 +137,35 @@ ScanSummary scan_profiles(const ScanInput& input, const Rig& rig, const StripeEx
   std::int64_t next = input.first_frame;
   std::atomic<bool> failed = false;
   std::exception_ptr error;
-  const auto issue = [&](tbb::flow_control& flow) {
-    const TaskScope scope;
-    auto placed = failed ? std::nullopt : next_placed_frame(input, next, summary);
-    if (!placed) flow.stop();
-    return placed.value_or(PlacedFrame{});
+  tbb::task_arena arena(threads == 0 ? tbb::task_arena::automatic : threads);
+  std::vector<FrameInFlight> in_flight(2 * static_cast<std::size_t>(arena.max_concurrency()));
+  std::size_t issued = 0;
+  const auto issue = [&](tbb::flow_control& flow) -> FrameInFlight* {
+    const auto placed = failed ? std::nullopt : next_placed_frame(input, next, summary);
+    if (!placed) {
+      flow.stop();
+      return nullptr;
+    }
+    FrameInFlight& frame = in_flight[issued++ % in_flight.size()];  // handed on: frames end in order
+    frame = {*placed, {}};
+    return &frame;
   };
-  const auto process = [&](const PlacedFrame& placed) {
-    const TaskScope scope;
-    return failed ? FrameOutcome{} : outcome_of_frame(placed, input, rig, extract);
+  const auto process = [&](FrameInFlight* frame) {
+    if (!failed) frame->outcome = outcome_of_frame(frame->placed, input, rig, extract);
+    return frame;
   };
-  const auto collect = [&](const FrameOutcome& outcome) {
-    const TaskScope scope;
+  const auto collect = [&](FrameInFlight* frame) {
     if (failed) return;
-    error = hand_on(outcome, sink, summary);
+    error = hand_on(frame->outcome, sink, summary);
     failed = error != nullptr;
   };
-  tbb::task_arena arena(threads == 0 ? tbb::task_arena::automatic : threads);
-  const auto tokens = 2 * static_cast<std::size_t>(arena.max_concurrency());
   arena.execute([&] {
     before_tasks();
     tbb::parallel_pipeline(
-        tokens, tbb::make_filter<void, PlacedFrame>(tbb::filter_mode::serial_in_order, issue) &
-                    tbb::make_filter<PlacedFrame, FrameOutcome>(tbb::filter_mode::parallel, process) &
-                    tbb::make_filter<FrameOutcome, void>(tbb::filter_mode::serial_in_order, collect));
+        in_flight.size(),
+        tbb::make_filter<void, FrameInFlight*>(tbb::filter_mode::serial_in_order, Task(issue)) &
+            tbb::make_filter<FrameInFlight*, FrameInFlight*>(tbb::filter_mode::parallel, Task(process)) &
+            tbb::make_filter<FrameInFlight*, void>(tbb::filter_mode::serial_in_order, Task(collect)));
     after_tasks();
   });
   if (error) std::rethrow_exception(error);

@@ -33,16 +33,14 @@ std::uint64_t stream_of(const std::string& name) {
 /// Calls `work(i)` for each i < count on `threads` threads (0 = all).
 template <class Work>
 void in_parallel(int threads, std::size_t count, const Work& work) {
+  const auto run_part = [&](const tbb::blocked_range<std::size_t>& part) {
+    for (std::size_t i = part.begin(); i < part.end(); ++i) work(i);
+  };
   tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
   before_tasks();
   arena.execute([&] {
-    tbb::parallel_for(
-        tbb::blocked_range<std::size_t>(0, count, 1),
-        [&](const tbb::blocked_range<std::size_t>& range) {
-          const TaskScope scope;
-          for (std::size_t i = range.begin(); i < range.end(); ++i) work(i);
-        },
-        tbb::simple_partitioner());
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 1), Task(run_part),
+                      tbb::simple_partitioner());
   });
   after_tasks();
 }
