@@ -4,10 +4,10 @@
 
 #include <fmt/format.h>
 #include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/info.h>
 
 #include <cstdio>
 #include <opencv2/core.hpp>
-#include <thread>
 
 namespace lightstripe {
 
@@ -21,7 +21,7 @@ void add_common_options(CLI::App& app, CommonOptions& options, const std::string
 
 int thread_count(const CommonOptions& options) {
   return options.threads > 0 ? options.threads
-                             : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+                             : oneapi::tbb::info::default_concurrency();
 }
 
 struct ThreadLimit::Impl {

@@ -17,9 +17,8 @@
 namespace lightstripe {
 namespace {
 
-// Exceptions travel with their frame instead of through the pipeline: oneTBB 2021.8 drops what is under way
-// without destroying it, and so the one that comes out is that of the first frame, not that of the fastest
-// thread.
+// Exceptions travel with their frame instead of through the pipeline: so the one that comes out is that of
+// the first frame, not that of the fastest thread.
 struct PlacedFrame {
   std::int64_t frame = 0;
   FramePosition position;
