@@ -20,8 +20,7 @@ void add_common_options(CLI::App& app, CommonOptions& options, const std::string
 }
 
 int thread_count(const CommonOptions& options) {
-  return options.threads > 0 ? options.threads
-                             : oneapi::tbb::info::default_concurrency();
+  return options.threads > 0 ? options.threads : oneapi::tbb::info::default_concurrency();
 }
 
 struct ThreadLimit::Impl {
