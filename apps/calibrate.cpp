@@ -4,14 +4,14 @@
 
 #include <fmt/format.h>
 
-#include "apps/board_overlay.h"
-#include "apps/calibration_advice.h"
-#include "apps/calibration_report.h"
-#include "apps/run_record.h"
 #include "core/error.h"
 #include "io/atomic_file.h"
 #include "io/camera_file.h"
 #include "io/rig_file.h"
+#include "pipeline/calibration_advice.h"
+#include "pipeline/run_record.h"
+#include "report/board_overlay.h"
+#include "report/calibration_report.h"
 
 namespace lightstripe {
 namespace {

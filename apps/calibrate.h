@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "apps/command.h"
+#include "calib/board/observe_board.h"
 #include "calib/calibrate_rig.h"
-#include "calib/observe_board.h"
 #include "io/session_file.h"
 
 namespace lightstripe {

@@ -9,12 +9,12 @@
 #include <numbers>
 #include <set>
 
-#include "apps/measurement_table.h"
 #include "core/error.h"
 #include "core/polyline_search.h"
-#include "core/section_alignment.h"
 #include "io/csv_reader.h"
 #include "io/rig_file.h"
+#include "pipeline/measurement_table.h"
+#include "simulate/section_alignment.h"
 
 namespace lightstripe {
 namespace {

@@ -9,15 +9,15 @@
 #include "apps/command.h"
 #include "apps/compare_with_truth.h"
 #include "apps/measure.h"
-#include "apps/preview.h"
 #include "apps/reconstruct.h"
 #include "apps/simulate.h"
 #include "core/error.h"
-#include "extraction/overlay.h"
+#include "extraction/draw/overlay.h"
 #include "io/images.h"
 #include "io/rig_file.h"
 #include "io/session_file.h"
 #include "io/tables.h"
+#include "report/preview.h"
 
 namespace lightstripe {
 namespace {

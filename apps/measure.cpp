@@ -10,19 +10,19 @@
 #include <map>
 #include <sstream>
 
-#include "apps/frame_links.h"
-#include "apps/measure_input.h"
-#include "apps/measure_references.h"
-#include "apps/measure_report.h"
-#include "apps/measurement_table.h"
-#include "apps/run_record.h"
-#include "apps/section_drawing.h"
 #include "core/error.h"
 #include "core/task_order.h"
 #include "io/atomic_file.h"
 #include "io/images.h"
 #include "io/rig_file.h"
 #include "measure/profile_formats.h"
+#include "pipeline/frame_links.h"
+#include "pipeline/measure_input.h"
+#include "pipeline/measure_references.h"
+#include "pipeline/measurement_table.h"
+#include "pipeline/run_record.h"
+#include "report/measure_report.h"
+#include "report/section_drawing.h"
 
 namespace lightstripe {
 namespace {

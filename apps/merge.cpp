@@ -9,11 +9,11 @@
 #include <memory>
 
 #include "apps/command.h"
-#include "apps/run_record.h"
 #include "core/error.h"
-#include "io/growing_file.h"
 #include "io/number_text.h"
+#include "io/resumable_file.h"
 #include "io/tables.h"
+#include "pipeline/run_record.h"
 #include "reconstruct/cloud_header.h"
 
 namespace lightstripe {
@@ -96,7 +96,7 @@ void put_in_order(std::vector<Part>& parts) {
   parts = filled;
 }
 
-void copy_content(const Part& part, GrowingFile& out) {
+void copy_content(const Part& part, ResumableFile& out) {
   std::ifstream in(part.file, std::ios::binary);
   in.seekg(static_cast<std::streamoff>(part.content_at));
   std::vector<char> block(std::size_t{1} << 20);
@@ -122,7 +122,7 @@ int run_merge(const MergeArguments& arguments) {
   if (num_points > kMaxCloudPoints)
     throw Error(output.string(), fmt::format("the cloud would exceed {} points", kMaxCloudPoints),
                 "merge fewer parts");
-  GrowingFile out(output, table ? std::string(kProfilesHeader) : cloud_header(format, num_points));
+  ResumableFile out(output, table ? std::string(kProfilesHeader) : cloud_header(format, num_points));
   try {
     for (const Part& part : parts) copy_content(part, out);
     out.commit();

@@ -19,9 +19,9 @@ void warn_of_skipped(const ReconstructOutcome& outcome, const std::string& outpu
   for (std::size_t i = 0; i < std::min(kMaxShown, outcome.skipped.size()); ++i)
     warn(fmt::format("frame {} skipped: {}", outcome.skipped[i].frame, outcome.skipped[i].picture.reason));
   if (outcome.skipped.size() > kMaxShown) warn(fmt::format("... and more, all named in {}.run.yaml", output));
-  if (!outcome.doubles.empty())
+  if (!outcome.duplicate_pictures.empty())
     warn(fmt::format("{} pictures have a number that another one has and are left out, the first: {}",
-                     outcome.doubles.size(), outcome.doubles.front()));
+                     outcome.duplicate_pictures.size(), outcome.duplicate_pictures.front()));
 }
 
 void warn_of_gaps(const ScanSummary& summary) {

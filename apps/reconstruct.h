@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "apps/command.h"
-#include "apps/scan_journal.h"
 #include "extraction/extract_stripes.h"
+#include "pipeline/scan_journal.h"
 #include "reconstruct/scanner.h"
 
 namespace lightstripe {
@@ -29,8 +29,8 @@ struct ReconstructArguments {
 
 struct ReconstructOutcome {
   ScanSummary summary;
-  std::vector<NamedSkip> skipped;    ///< the first of them
-  std::vector<std::string> doubles;  ///< pictures whose number another one has
+  std::vector<NamedSkip> skipped;               ///< the first of them
+  std::vector<std::string> duplicate_pictures;  ///< pictures whose number another one has
   std::int64_t first_frame = 0, end_frame = 0;
   std::int64_t frames_now = 0;  ///< of this run, without those of the one that it went on from
   double seconds = 0;

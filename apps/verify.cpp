@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include "apps/calibrate.h"
-#include "apps/run_record.h"
-#include "calib/verify_rig.h"
+#include "calib/verify/verify_rig.h"
 #include "core/error.h"
 #include "io/atomic_file.h"
 #include "io/rig_file.h"
+#include "pipeline/run_record.h"
 
 namespace lightstripe {
 namespace {

@@ -22,8 +22,8 @@
 #include <opencv2/imgcodecs.hpp>
 #include <thread>
 
-#include "io/growing_file.h"
 #include "io/images.h"
+#include "io/resumable_file.h"
 #include "io/rig_file.h"
 #include "reconstruct/cloud_header.h"
 #include "reconstruct/scanner.h"
@@ -79,7 +79,7 @@ std::int64_t reconstruct_all(const Arguments& arguments, const std::vector<std::
     frame.encoded.resize(1);
     append_cloud_points(frame.encoded[0], CloudFormat::kPly, frame.profile);
   };
-  GrowingFile file(cloud, cloud_header(CloudFormat::kPly, 0));
+  ResumableFile file(cloud, cloud_header(CloudFormat::kPly, 0));
   ExtractionOptions extraction;
   extraction.stripe_width = 6;
   const auto summary = scan_profiles(input, arguments.rig, extraction, arguments.threads,

@@ -6,15 +6,15 @@
 
 #include <cmath>
 
-#include "calib/choose_lens.h"
-#include "calib/diagnosis.h"
-#include "calib/initial_values.h"
-#include "calib/joint_adjustment.h"
-#include "calib/measurements.h"
-#include "calib/rig_frame.h"
-#include "calib/uncertainty.h"
-#include "calib/verdict.h"
-#include "calib/view_geometry.h"
+#include "calib/adjust/joint_adjustment.h"
+#include "calib/adjust/rig_frame.h"
+#include "calib/adjust/session_views.h"
+#include "calib/assess/board_spread.h"
+#include "calib/assess/diagnosis.h"
+#include "calib/assess/uncertainty.h"
+#include "calib/assess/verdict.h"
+#include "calib/start/choose_lens.h"
+#include "calib/start/initial_values.h"
 #include "core/error.h"
 
 namespace lightstripe {
@@ -61,7 +61,7 @@ std::vector<LensModel> models_of(const std::vector<LensChoice>& choices) {
 }
 
 /// The measuring range: declared, or where boards showed stripes and half of that beyond on both sides.
-std::array<double, 2> depth_range(const Measurements& measurements, const JointAdjustment& adjustment,
+std::array<double, 2> depth_range(const SessionViews& measurements, const JointAdjustment& adjustment,
                                   int sensor, const CalibrationOptions& options) {
   if (options.range_far_mm > 0) return {options.range_near_mm, options.range_far_mm};
   const DepthRange seen = stripe_depths(measurements, adjustment.state, adjustment.measurements, sensor);
@@ -72,8 +72,8 @@ std::array<double, 2> depth_range(const Measurements& measurements, const JointA
 /// The stages in their order; throws NotUsable with what was found so far in `result`.
 void calibrate(const CalibrationObservations& observations, const CalibrationOptions& options,
                CalibrationResult& result) {
-  const InitialValues start = initial_values(prepare_measurements(observations));
-  const Measurements& measurements = start.measurements;
+  const InitialValues start = initial_values(prepare_session_views(observations));
+  const SessionViews& measurements = start.measurements;
   auto& quality = result.rig.quality;
   quality.warnings = start.warnings;
 
@@ -97,12 +97,11 @@ void calibrate(const CalibrationObservations& observations, const CalibrationOpt
   const auto section = section_uncertainty(measurements, adjustment, observations.up);
   quality.section_shape_sigma_mm = section.shape_mm;
   quality.section_absolute_sigma_mm = section.absolute_mm;
-  const auto diagnosis =
-      std::make_shared<CalibrationDiagnosis>(diagnose(measurements, adjustment, observations.up, options));
-  result.diagnosis = diagnosis;
-  quality.cross_validation_ratio = diagnosis->cross_validation.ratio();
-  quality.weakest = diagnosis->weakest;
-  append(quality.warnings, warnings_about(diagnosis->cross_validation));
+  const CalibrationDiagnosis& diagnosis =
+      result.diagnosis.emplace(diagnose(measurements, adjustment, observations.up, options));
+  quality.cross_validation_ratio = diagnosis.cross_validation.ratio();
+  quality.weakest = diagnosis.weakest;
+  append(quality.warnings, warnings_about(diagnosis.cross_validation));
   refuse_parallel_lasers(measurements, adjustment.state);
   refuse_extrapolation(measurements, adjustment, options);
   refuse_uncertain_section(adjustment, section.shape_mm);

@@ -40,10 +40,10 @@ set(lightstripe_precompiled <algorithm> <cmath> <filesystem> <functional> <map> 
                             <Eigen/Dense> <fmt/format.h>)
 
 # lightstripe_library(<folder's name> DEPS <folders it may include> EXTERNAL <libraries of others> PRECOMPILE <headers>)
-# makes lightstripe::<name> of every .cpp file in the current folder.
+# makes lightstripe::<name> of every .cpp file below the current folder.
 function(lightstripe_library name)
   cmake_parse_arguments(ARG "" "" "DEPS;EXTERNAL;PRECOMPILE" ${ARGN})
-  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
   add_library(lightstripe_${name} STATIC ${sources})
   add_library(lightstripe::${name} ALIAS lightstripe_${name})
   set_target_properties(lightstripe_${name} PROPERTIES POSITION_INDEPENDENT_CODE ON EXPORT_NAME ${name})
@@ -83,8 +83,7 @@ function(lightstripe_tests folder)
     if(LIGHTSTRIPE_PRECOMPILE)
       target_precompile_headers(${target} REUSE_FROM tests_precompiled)
     endif()
-    target_compile_definitions(${target} PRIVATE LIGHTSTRIPE_BINARY="${CMAKE_BINARY_DIR}/bin/lightstripe"
-                                                 LIGHTSTRIPE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+    target_include_directories(${target} PRIVATE ${CMAKE_BINARY_DIR}/generated/tests)
     add_test(NAME ${folder}/${stem} COMMAND ${target} WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
     set(label unit)
     if(stem MATCHES "\\.([a-z]+)_test$")

@@ -6,21 +6,21 @@
 #include <cmath>
 #include <numbers>
 
-#include "extraction/binned_image.h"
-#include "extraction/curvature_bias.h"
-#include "extraction/grey_value_lines.h"
-#include "extraction/hu_recursive.h"
-#include "extraction/image_facts.h"
-#include "extraction/line_ends.h"
-#include "extraction/line_junctions.h"
-#include "extraction/line_measure.h"
-#include "extraction/line_noise.h"
+#include "extraction/compare/grey_value_lines.h"
+#include "extraction/compare/hu_recursive.h"
+#include "extraction/compare/steger.h"
+#include "extraction/compare/zhou_roi.h"
+#include "extraction/image/binned_image.h"
+#include "extraction/image/image_facts.h"
+#include "extraction/image/stripe_width.h"
+#include "extraction/lines/curvature_bias.h"
+#include "extraction/lines/line_ends.h"
+#include "extraction/lines/line_junctions.h"
+#include "extraction/lines/line_measure.h"
+#include "extraction/lines/line_noise.h"
+#include "extraction/lines/smoothing.h"
 #include "extraction/parsed_options.h"
-#include "extraction/smoothing.h"
-#include "extraction/steger.h"
-#include "extraction/stripe_width.h"
 #include "extraction/workspace.h"
-#include "extraction/zhou_roi.h"
 
 namespace lightstripe {
 namespace {
@@ -98,7 +98,7 @@ void find_lines(const Run<T>& run) {
                                w.lines);
       break;
   }
-  test_lines(run.image, w.kernels, run.facts.noise.seen, run.options.lines, w.tests, w.lines);
+  filter_lines(run.image, w.kernels, run.facts.noise.seen, run.options.lines, w.tests, w.lines);
 }
 
 /// Median width of the brighter measured points; nothing without points.

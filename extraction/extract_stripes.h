@@ -3,77 +3,15 @@
 // image -> stripes: the one door to every extraction method.
 #pragma once
 
-#include <array>
-#include <optional>
-#include <string>
-#include <vector>
-
-#include "core/fields.h"
 #include "core/image.h"
-#include "core/stripe.h"
-#include "extraction/line_tests.h"
-#include "extraction/thresholds.h"
+#include "extraction/options.h"
+#include "extraction/result.h"
 
 namespace lightstripe {
-
-enum class ExtractionMethod { kDirectionGuided, kSteger, kZhouRoi, kHuRecursive, kCentroid, kExtremum };
-
-constexpr std::array<EnumName<ExtractionMethod>, 6> enum_names(ExtractionMethod) {
-  return {{{ExtractionMethod::kDirectionGuided, "direction-guided"},
-           {ExtractionMethod::kSteger, "steger"},
-           {ExtractionMethod::kZhouRoi, "zhou-roi"},
-           {ExtractionMethod::kHuRecursive, "hu-recursive"},
-           {ExtractionMethod::kCentroid, "centroid"},
-           {ExtractionMethod::kExtremum, "extremum"}}};
-}
-
-struct ExtractionOptions {
-  ExtractionMethod method = ExtractionMethod::kDirectionGuided;
-  std::optional<double> stripe_width;  ///< px, full width 2w of the bright bar; sigma = w / sqrt(3)
-  std::optional<double> sigma;         ///< px; neither given: the width is estimated from the image
-  std::string thresholds = "auto";     ///< auto = bilevel, otsu, rosin, or "LOW,HIGH" in grey levels
-  std::optional<double> alpha;         ///< weight of T_min in T_l, [0, 1]; not given: from entropy and peaks
-  double beta = 0;                     ///< weight of T_max in T_h, [0, 1]
-  std::string roi = "all";             ///< "X,Y,WIDTH,HEIGHT": only this part of the image, px
-  std::string start = "none";          ///< "X,Y": the line nearest to this place is followed first, px
-  int stop_after = 0;                  ///< no further line is looked for after so many; 0 = all
-  int max_lines = 0;                   ///< only the longest lines; 0 = all
-  bool curvature_correction = true;    ///< undo the kernels' drift to the inner side of bends
-  bool smoothing = false;              ///< local quadratic fit along the lines
-  LineTestOptions lines;               ///< what a line has to be like
-};
-
-template <class V>
-void visit_fields(V&& v, ExtractionOptions& o) {
-  v("method", o.method, "direction-guided | steger | zhou-roi | hu-recursive | centroid | extremum");
-  v("stripe_width", o.stripe_width, "full width of the bright bar, px; default: estimated from the image");
-  v("sigma", o.sigma, "scale of the Gaussian kernels, px; default: stripe_width / (2 sqrt 3)");
-  v("thresholds", o.thresholds, "auto (bilevel), otsu, rosin, or LOW,HIGH in grey levels");
-  v("alpha", o.alpha, "weight of the background's grey level in the low threshold; default: automatic");
-  v("beta", o.beta, "weight of the brightest grey level in the high threshold");
-  v("roi", o.roi, "all, or X,Y,WIDTH,HEIGHT: only this part of the image, px");
-  v("start", o.start, "none, or X,Y: the line nearest to this place is followed first, px");
-  v("stop_after", o.stop_after, "no further line is looked for after so many (direction-guided); 0 = all");
-  v("max_lines", o.max_lines, "only the longest lines; 0 = all");
-  v("curvature_correction", o.curvature_correction, "undo the kernels' drift to the inner side of bends");
-  v("smoothing", o.smoothing,
-    "smooth along the lines: a local quadratic fit, its reach chosen from the curvature");
-  v("lines", o.lines);
-}
 
 /// Buffers that a caller keeps between frames of a sequence (one a thread), so that nothing is allocated a
 /// frame. Defined in extraction/workspace.h.
 struct ExtractionWorkspace;
-
-/// The stripes are ordered by falling length; each runs with growing x or y, whichever spans more.
-struct ExtractionResult {
-  std::vector<Stripe> stripes;
-  double sigma = 0;          ///< the scale used, px
-  double threshold_low = 0;  ///< grey levels
-  double threshold_high = 0;
-  double noise = 0;          ///< standard deviation of the image noise, grey levels, measured in the image
-  BilevelThresholds levels;  ///< how automatic thresholds come about in this image
-};
 
 /// An empty or dark image gives no stripes. Options out of their range: Error naming the option.
 ExtractionResult extract_stripes(ImageView8 image, const ExtractionOptions& options = {});

@@ -5,7 +5,7 @@
 
 #include <optional>
 
-#include "extraction/extract_stripes.h"
+#include "extraction/options.h"
 
 namespace lightstripe {
 

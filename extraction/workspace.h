@@ -7,21 +7,21 @@
 #include <type_traits>
 #include <vector>
 
-#include "extraction/curvature_bias.h"
-#include "extraction/derivative_planes.h"
-#include "extraction/direction_guided.h"
-#include "extraction/grey_value_lines.h"
-#include "extraction/kernels.h"
-#include "extraction/line_set.h"
-#include "extraction/line_tests.h"
-#include "extraction/smoothing.h"
+#include "extraction/compare/derivative_planes.h"
+#include "extraction/compare/grey_value_lines.h"
+#include "extraction/follow/direction_guided.h"
+#include "extraction/kernels/kernels.h"
+#include "extraction/lines/curvature_bias.h"
+#include "extraction/lines/line_filter.h"
+#include "extraction/lines/line_set.h"
+#include "extraction/lines/smoothing.h"
 
 namespace lightstripe {
 
 struct ExtractionWorkspace {
   DerivativeKernels kernels;  ///< of the last sigma
   LineSet lines;
-  LineTestWorkspace tests;
+  LineFilterWorkspace tests;
   DirectionGuidedWorkspace<std::uint8_t> direction_guided8;
   DirectionGuidedWorkspace<std::uint16_t> direction_guided16;
   WholeImageWorkspace whole_image;

@@ -19,7 +19,9 @@ MAY_INCLUDE = {
     "reconstruct": {"extraction", "core"},
     "measure": {"core"},
     "simulate": {"core", "io"},
-    "apps": {"core", "io", "extraction", "calib", "reconstruct", "measure", "simulate"},
+    "pipeline": {"core", "io", "extraction", "calib", "reconstruct", "measure"},
+    "report": {"core", "io", "extraction", "calib", "reconstruct", "measure", "pipeline"},
+    "apps": {"core", "io", "extraction", "calib", "reconstruct", "measure", "simulate", "pipeline", "report"},
 }
 # library's include prefix -> folders where it may appear
 LIBRARY_IN = {
@@ -28,14 +30,14 @@ LIBRARY_IN = {
     r"yaml-cpp/": {"io"},
     r"opencv2/(imgcodecs|videoio|highgui)": {"io"},
     r"opencv2/calib3d|opencv2/aruco|opencv2/objdetect": {"calib"},
-    r"opencv2/": {"io", "calib", "extraction", "simulate", "apps"},
+    r"opencv2/": {"io", "calib", "extraction", "simulate", "report", "apps"},
     r"CLI/": {"apps"},
-    r"fmt/": {"io", "calib", "reconstruct", "simulate", "measure", "apps"},
-    r"tbb/|oneapi/tbb": {"calib", "reconstruct", "simulate", "apps"},
+    r"fmt/": {"io", "calib", "reconstruct", "simulate", "measure", "pipeline", "report", "apps"},
+    r"tbb/|oneapi/tbb": {"calib", "reconstruct", "simulate", "pipeline", "apps"},
     r"hwy/": {"extraction"},
 }
 # the direction-guided core needs the standard library and Highway only
-NO_OPENCV_FILES = re.compile(r"extraction/(direction_guided|kernels|thresholds|line_point|point_)")
+NO_OPENCV_FILES = re.compile(r"extraction/(follow|kernels|image|lines)/")
 TYPE = re.compile(r"^(?:struct|class|enum class) (\w+)(?: final)?(?:\s*:[^{;]*)?\s*\{", re.MULTILINE)
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
 

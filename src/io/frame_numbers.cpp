@@ -109,7 +109,7 @@ FrameMap by_number(std::span<const FrameSource* const> sources, const std::vecto
       const std::int64_t frame = (numbers[s][i] - numbering.base) / numbering.step;
       std::int32_t& index = map.index[s][static_cast<std::size_t>(frame - map.first)];
       if (index >= 0)
-        map.doubles.push_back(sources[s]->name(static_cast<std::int64_t>(i)));
+        map.duplicate_pictures.push_back(sources[s]->name(static_cast<std::int64_t>(i)));
       else
         index = static_cast<std::int32_t>(i);
     }

@@ -21,7 +21,7 @@ struct FrameMap {
   std::int64_t first = 0, end = 0;
   /// Of each source and each frame from `first` on: the index in the source, -1 where its picture is missing.
   std::vector<std::vector<std::int32_t>> index;
-  std::vector<std::string> doubles;  ///< pictures left out because another one has the same number
+  std::vector<std::string> duplicate_pictures;  ///< pictures left out because another one has the same number
 
   std::int32_t index_of(std::size_t source, std::int64_t frame) const {
     return index[source][static_cast<std::size_t>(frame - first)];

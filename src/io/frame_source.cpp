@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "core/error.h"
-#include "io/deciding_channel.h"
+#include "io/choose_channel.h"
 #include "io/frame_numbers.h"
 #include "io/images.h"
 #include "io/tiff_pages.h"

@@ -7,7 +7,7 @@
 #include <unistd.h>
 
 #include "core/error.h"
-#include "io/deciding_channel.h"
+#include "io/choose_channel.h"
 #include "io/decode_picture.h"
 #include "io/tiff_page_cut.h"
 

@@ -11,6 +11,7 @@
 
 #include "command_line.h"
 #include "markdown.h"
+#include "test_paths.h"
 
 namespace lightstripe {
 namespace {

@@ -12,6 +12,8 @@
 #include <sstream>
 #include <string>
 
+#include "test_paths.h"
+
 namespace lightstripe {
 
 /// A folder of the test's own, removed at the end.

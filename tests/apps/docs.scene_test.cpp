@@ -13,6 +13,7 @@
 
 #include "command_line.h"
 #include "markdown.h"
+#include "test_paths.h"
 
 namespace lightstripe {
 namespace {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "command_line.h"
+#include "test_paths.h"
 
 namespace lightstripe {
 

@@ -8,6 +8,7 @@
 
 #include "command_line.h"
 #include "io/csv_reader.h"
+#include "test_paths.h"
 
 namespace lightstripe {
 namespace {

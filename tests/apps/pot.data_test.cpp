@@ -10,6 +10,7 @@
 
 #include "command_line.h"
 #include "io/tables.h"
+#include "test_paths.h"
 
 namespace lightstripe {
 namespace {

@@ -14,6 +14,7 @@
 #include "command_line.h"
 #include "core/random.h"
 #include "reconstruct/cloud.h"
+#include "test_paths.h"
 
 namespace lightstripe {
 namespace {

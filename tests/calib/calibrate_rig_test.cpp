@@ -11,7 +11,7 @@
 #include <opencv2/calib3d.hpp>
 #include <thread>
 
-#include "calib/measurements.h"
+#include "calib/adjust/session_views.h"
 #include "core/error.h"
 #include "synthetic_session.h"
 

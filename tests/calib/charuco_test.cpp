@@ -7,8 +7,8 @@
 #include <opencv2/aruco/charuco.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "calib/board/observe_board.h"
 #include "calib/observations.h"
-#include "calib/observe_board.h"
 #include "core/error.h"
 
 namespace lightstripe {

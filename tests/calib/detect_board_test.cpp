@@ -3,9 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "calib/board_reasons.h"
-#include "calib/corner_grid.h"
-#include "calib/observe_board.h"
+#include "calib/board/board_reasons.h"
+#include "calib/board/corner_grid.h"
+#include "calib/board/observe_board.h"
 #include "rendered_board.h"
 
 namespace lightstripe {

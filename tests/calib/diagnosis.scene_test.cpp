@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The lightstripe authors
 // SPDX-License-Identifier: Apache-2.0
 // What a calibration says about its own errors.
-#include "calib/diagnosis.h"
+#include "calib/assess/diagnosis.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

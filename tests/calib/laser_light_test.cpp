@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The lightstripe authors
 // SPDX-License-Identifier: Apache-2.0
-#include "calib/laser_light.h"
+#include "calib/board/laser_light.h"
 
 #include <gtest/gtest.h>
 

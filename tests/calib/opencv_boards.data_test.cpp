@@ -6,8 +6,8 @@
 
 #include <filesystem>
 
+#include "calib/board/observe_board.h"
 #include "calib/calibrate_rig.h"
-#include "calib/observe_board.h"
 #include "io/camera_file.h"
 #include "io/images.h"
 

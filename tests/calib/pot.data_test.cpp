@@ -7,9 +7,10 @@
 #include <filesystem>
 #include <numbers>
 
+#include "calib/board/observe_board.h"
 #include "calib/calibrate_rig.h"
-#include "calib/observe_board.h"
 #include "io/images.h"
+#include "test_paths.h"
 
 namespace lightstripe {
 namespace {

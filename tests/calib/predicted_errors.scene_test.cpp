@@ -8,9 +8,9 @@
 #include <cstdlib>
 #include <thread>
 
+#include "calib/adjust/session_views.h"
 #include "calib/calibrate_rig.h"
-#include "calib/initial_values.h"
-#include "calib/measurements.h"
+#include "calib/start/initial_values.h"
 #include "section_error.h"
 
 namespace lightstripe {
@@ -78,7 +78,7 @@ Trial trial(std::uint64_t seed) {
   trial.absolute_mm = joint.absolute_mm;
   trial.shape_sigma_mm = result.rig.quality.section_shape_sigma_mm;
   trial.absolute_sigma_mm = result.rig.quality.section_absolute_sigma_mm;
-  const RigState two_step = initial_values(prepare_measurements(observations)).state;
+  const RigState two_step = initial_values(prepare_session_views(observations)).state;
   trial.two_step_shape_mm = testing::section_error(two_step, truth, observations).shape_mm;
   return trial;
 }

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The lightstripe authors
 // SPDX-License-Identifier: Apache-2.0
-#include "calib/residuals.h"
+#include "calib/adjust/residuals.h"
 
 #include <ceres/gradient_checker.h>
 #include <gtest/gtest.h>
@@ -8,8 +8,8 @@
 #include <Eigen/Geometry>
 #include <array>
 
-#include "calib/rig_state.h"
-#include "calib/stripe_frame.h"
+#include "calib/adjust/rig_state.h"
+#include "calib/adjust/stripe_crossing.h"
 
 namespace lightstripe {
 namespace {
@@ -137,7 +137,7 @@ TEST(StripeResidual, IsTheDistanceToTheProjectedLine) {
   const std::array<double, 4> plane{n.x(), n.y(), n.z(), n.dot(Vector3d(100, 0, 500))};
   const Camera camera{640, 480, 1000, 1000, 320, 240, {}};
   const Vector2d pixel(518, 100);
-  const auto frame = stripe_frame(camera, {Vector3d::UnitZ(), 500}, {n, plane[3]}, pixel);
+  const auto frame = stripe_crossing(camera, {Vector3d::UnitZ(), 500}, {n, plane[3]}, pixel);
   ASSERT_TRUE(frame);
   EXPECT_NEAR(std::abs(frame->normal.x()), 1, 1e-9);
   EXPECT_NEAR(std::abs(frame->distance_px), 2, 1e-9);
@@ -163,7 +163,7 @@ TEST(StripeResidual, GradientAgreesWithDifferences) {
   const auto pixel = project(camera, cam_from_board.translation);
   ASSERT_TRUE(pixel);
   const auto frame =
-      stripe_frame(camera, board_plane(cam_from_board), {n, plane[3]}, *pixel + Vector2d(0.5, -0.3));
+      stripe_crossing(camera, board_plane(cam_from_board), {n, plane[3]}, *pixel + Vector2d(0.5, -0.3));
   ASSERT_TRUE(frame);
   const StripeResidual residual(place(7, 22), *pixel, frame->normal, frame->across, 0.1);
   std::string why;

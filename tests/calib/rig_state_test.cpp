@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The lightstripe authors
 // SPDX-License-Identifier: Apache-2.0
-#include "calib/rig_state.h"
+#include "calib/adjust/rig_state.h"
 
 #include <gtest/gtest.h>
 
-#include "calib/joint_problem.h"
-#include "calib/rig_frame.h"
+#include "calib/adjust/joint_problem.h"
+#include "calib/adjust/rig_frame.h"
 
 namespace lightstripe {
 namespace {
@@ -51,7 +51,7 @@ TEST(RigFromFirst, RefusesAnUpHintAlongX) {
 }
 
 TEST(RigOf, TurnsARotaryAxisToGrowWithY) {
-  Measurements measurements;
+  SessionViews measurements;
   measurements.sensor_names = {"only"};
   measurements.motion = MotionType::kRotary;
   auto state = one_sensor();

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "calib/uncertainty.h"
+#include "calib/assess/uncertainty.h"
 #include "core/rig.h"
 #include "synthetic_session.h"
 

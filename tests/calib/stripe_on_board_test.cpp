@@ -3,9 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "calib/board_map.h"
-#include "calib/observe_board.h"
-#include "calib/stripe_frame.h"
+#include "calib/adjust/stripe_crossing.h"
+#include "calib/board/board_map.h"
+#include "calib/board/observe_board.h"
 #include "rendered_board.h"
 #include "synthetic_session.h"
 
@@ -30,7 +30,7 @@ const SensorState kFlat = sensor_with({0.1, 1, 0.6}, {0, 2, 550});
 
 double distance_px(const StripePoint& point, const SensorState& sensor, const Rigid3& cam_from_board) {
   const auto frame =
-      stripe_frame(sensor.camera, board_plane(cam_from_board), sensor.laser_planes[0], {point.x, point.y});
+      stripe_crossing(sensor.camera, board_plane(cam_from_board), sensor.laser_planes[0], {point.x, point.y});
   return frame ? frame->distance_px : 1e9;
 }
 

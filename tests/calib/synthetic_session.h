@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "calib/board_surface.h"
+#include "calib/adjust/board_surface.h"
+#include "calib/adjust/rig_state.h"
 #include "calib/observations.h"
-#include "calib/rig_state.h"
 #include "core/random.h"
 
 namespace lightstripe::testing {

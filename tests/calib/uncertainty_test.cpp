@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The lightstripe authors
 // SPDX-License-Identifier: Apache-2.0
-#include "calib/uncertainty.h"
+#include "calib/assess/uncertainty.h"
 
 #include <gtest/gtest.h>
 

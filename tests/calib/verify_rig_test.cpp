@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The lightstripe authors
 // SPDX-License-Identifier: Apache-2.0
 // A rig checked on boards with known errors put into it.
-#include "calib/verify_rig.h"
+#include "calib/verify/verify_rig.h"
 
 #include <gtest/gtest.h>
 
-#include "calib/rig_frame.h"
+#include "calib/adjust/rig_frame.h"
 #include "synthetic_session.h"
 
 namespace lightstripe {

@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "extraction/extract_stripes.h"
-#include "extraction/kernels.h"
-#include "extraction/line_point.h"
+#include "extraction/follow/line_point.h"
+#include "extraction/kernels/kernels.h"
 #include "extraction/workspace.h"
 #include "stripe_scenes.h"
 

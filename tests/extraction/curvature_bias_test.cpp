@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The lightstripe authors
 // SPDX-License-Identifier: Apache-2.0
-#include "extraction/curvature_bias.h"
+#include "extraction/lines/curvature_bias.h"
 
 #include <gtest/gtest.h>
 

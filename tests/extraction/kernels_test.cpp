@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The lightstripe authors
 // SPDX-License-Identifier: Apache-2.0
-#include "extraction/kernels.h"
+#include "extraction/kernels/kernels.h"
 
 #include <gtest/gtest.h>
 
@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "core/random.h"
-#include "extraction/kernels_scan.h"
-#include "extraction/kernels_window.h"
+#include "extraction/kernels/kernels_scan.h"
+#include "extraction/kernels/kernels_window.h"
 
 namespace lightstripe {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The lightstripe authors
 // SPDX-License-Identifier: Apache-2.0
-#include "extraction/line_point.h"
+#include "extraction/follow/line_point.h"
 
 #include <gtest/gtest.h>
 

@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The lightstripe authors
 // SPDX-License-Identifier: Apache-2.0
-#include "extraction/local_fit.h"
+#include "extraction/lines/local_fit.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "core/random.h"
-#include "extraction/smoothing.h"
+#include "extraction/lines/smoothing.h"
 
 namespace lightstripe {
 namespace {

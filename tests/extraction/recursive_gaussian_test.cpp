@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The lightstripe authors
 // SPDX-License-Identifier: Apache-2.0
-#include "extraction/recursive_gaussian.h"
+#include "extraction/kernels/recursive_gaussian.h"
 
 #include <gtest/gtest.h>
 

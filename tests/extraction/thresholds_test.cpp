@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The lightstripe authors
 // SPDX-License-Identifier: Apache-2.0
-#include "extraction/thresholds.h"
+#include "extraction/image/thresholds.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "core/random.h"
-#include "extraction/noise.h"
+#include "extraction/image/noise.h"
 
 namespace lightstripe {
 namespace {

@@ -3,8 +3,8 @@
 // The paper's scenes, a rail with reflections and a checkerboard, with noise and default options.
 #include <gtest/gtest.h>
 
+#include "extraction/draw/overlay.h"
 #include "extraction/extract_stripes.h"
-#include "extraction/overlay.h"
 #include "whole_scenes.h"
 
 namespace lightstripe {

@@ -89,7 +89,7 @@ TEST(MapFrames, OfTwoPicturesWithOneNumberTheFirstCounts) {
   const Named source({"img_1.png", "img_01.png", "img_2.png"});
   const FrameMap map = map_of({&source});
   EXPECT_THAT(map.index[0], ElementsAre(0, 2));
-  EXPECT_THAT(map.doubles, ElementsAre("img_01.png"));
+  EXPECT_THAT(map.duplicate_pictures, ElementsAre("img_01.png"));
 }
 
 TEST(MapFrames, WithoutNumbersTheSensorsNeedTheSameLength) {

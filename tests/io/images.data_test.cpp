@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "io/images.h"
+#include "test_paths.h"
 
 namespace lightstripe {
 namespace {

@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "core/error.h"
+#include "test_paths.h"
 
 namespace lightstripe {
 namespace {

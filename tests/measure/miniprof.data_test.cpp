@@ -8,6 +8,7 @@
 #include "io/nominal_outlines.h"
 #include "measure/measure_wheel.h"
 #include "measure/profile_formats.h"
+#include "test_paths.h"
 
 namespace lightstripe {
 namespace {

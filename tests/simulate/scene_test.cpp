@@ -11,6 +11,7 @@
 #include "core/error.h"
 #include "io/yaml_binding.h"
 #include "simulate/optics.h"
+#include "test_paths.h"
 
 namespace lightstripe {
 namespace {

@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+#include "calib/adjust/board_surface.h"
+
+#include "calib/adjust/rig_state.h"
+
+namespace lightstripe {
+
+using Eigen::Vector2d;
+
+BoardPlace board_place(const Target& target, const Vector2d& xy) {
+  const Vector2d half(0.5 * (target.columns - 1) * target.pitch_x, 0.5 * (target.rows - 1) * target.pitch_y);
+  const Vector2d at = (xy - half).cwiseQuotient(half);
+  return {xy, Vector2d::Ones() - at.cwiseAbs2(), -2 * at.cwiseQuotient(half)};
+}
+
+std::optional<BoardPlace> seen_place(const Target& target, const Camera& camera, const Rigid3& cam_from_board,
+                                     const Vector2d& pixel) {
+  const auto ray = unproject(camera, pixel);
+  const auto p_cam =
+      ray ? intersect(board_plane(cam_from_board), Eigen::Vector3d::Zero(), *ray) : std::nullopt;
+  if (!p_cam) return std::nullopt;
+  return board_place(target, (cam_from_board.inverse() * *p_cam).head<2>());
+}
+
+Plane tangent_plane(const BoardPlace& place, const Vector2d& warp, const Rigid3& cam_from_board) {
+  const Eigen::Vector3d normal = cam_from_board.rotation * place.normal(warp);
+  return canonical({normal, normal.dot(cam_from_board * place.point(warp))});
+}
+
+}  // namespace lightstripe

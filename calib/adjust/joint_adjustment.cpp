@@ -1,0 +1,165 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+#include "calib/adjust/joint_adjustment.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "calib/adjust/reduced_covariance.h"
+#include "calib/adjust/solve_problem.h"
+
+namespace lightstripe {
+namespace {
+
+constexpr double kMinSigmaPx = 0.005;     // perfect data must not divide by zero
+constexpr std::size_t kMinForSigma = 40;  // residuals of a group from which its sigma is estimated
+
+enum class Spread { kMedian, kRms };
+
+/// Groups of equal error: a sensor's corners, its stripe points, and its corners of the travelling views,
+/// which carry the travel's own error.
+constexpr std::size_t kGroups = 3;
+std::size_t group_of(const SessionViews& measurements, const Residual& measurement) {
+  const auto& view = measurements.views[measurement.view];
+  const std::size_t kind = !measurement.is_corner() ? 1 : view.pose < 0 ? 2 : 0;
+  return kGroups * static_cast<std::size_t>(view.sensor) + kind;
+}
+
+double stripe_sigma_px(const StripePoint& point, const CalibrationOptions& options) {
+  return std::hypot(point.sigma_px, options.stripe_sigma_floor_px);
+}
+
+std::vector<Residual> list_measurements(const SessionViews& measurements, const CalibrationOptions& options) {
+  std::vector<Residual> list;
+  for (std::size_t v = 0; v < measurements.views.size(); ++v) {
+    const auto& view = measurements.views[v];
+    for (std::size_t i = 0; i < view.corners.size(); ++i)
+      if (is_seen(view.corners[i])) list.push_back({v, -1, i, options.corner_sigma_px});
+    for (std::size_t p = 0; p < view.stripes.size(); ++p)
+      for (std::size_t i = 0; i < view.stripes[p].size(); ++i)
+        list.push_back({v, static_cast<int>(p), i, stripe_sigma_px(view.stripes[p][i], options)});
+  }
+  return list;
+}
+
+/// Stripe points that no ray explains in this state are of no use in the next round.
+void drop_unseen(const SessionViews& measurements, const RigState& state, std::vector<Residual>& list) {
+  for (auto& measurement : list) {
+    if (measurement.is_corner() || !measurement.used) continue;
+    const auto& view = measurements.views[measurement.view];
+    const auto p = static_cast<std::size_t>(measurement.plane);
+    const auto& point = view.stripes[p][measurement.index];
+    measurement.used = seen_stripe_point(measurements, state, view, p, {point.x, point.y}).has_value();
+  }
+}
+
+void read_residuals(JointProblem& joint, std::vector<Residual>& list) {
+  ceres::Problem::EvaluateOptions options;
+  options.apply_loss_function = false;
+  std::vector<double> residuals;
+  joint.problem().Evaluate(options, nullptr, &residuals, nullptr, nullptr);
+  auto next = residuals.cbegin();
+  for (auto& measurement : list) {
+    if (!measurement.used) continue;
+    for (int i = 0; i < measurement.dimension(); ++i)
+      measurement.residual_px[i] = *next++ * measurement.sigma_px;
+  }
+}
+
+double spread_of(std::vector<double> normalised, Spread spread) {
+  if (spread == Spread::kRms) {
+    double sum = 0;
+    for (const double r : normalised) sum += r * r;
+    return std::sqrt(sum / static_cast<double>(normalised.size()));
+  }
+  const auto middle = normalised.begin() + static_cast<std::ptrdiff_t>(normalised.size() / 2);
+  std::nth_element(normalised.begin(), middle, normalised.end());
+  return 1.4826 * *middle;
+}
+
+/// Scales the sigmas of each group so that its normalised residuals have unit spread (variance components);
+/// `redundancy` = 1 - unknowns / residuals.
+void estimate_sigmas(const SessionViews& measurements, Spread spread, double redundancy,
+                     std::vector<Residual>& list) {
+  std::vector<std::vector<double>> groups(kGroups * measurements.sensor_names.size());
+  for (const auto& measurement : list) {
+    if (!measurement.used) continue;
+    auto& group = groups[group_of(measurements, measurement)];
+    for (int i = 0; i < measurement.dimension(); ++i)
+      group.push_back(std::abs(measurement.residual_px[i]) / measurement.sigma_px);
+  }
+  std::vector<double> scales;
+  scales.reserve(groups.size());
+  for (auto& group : groups)
+    scales.push_back(
+        group.size() < kMinForSigma ? 1.0 : spread_of(std::move(group), spread) / std::sqrt(redundancy));
+  for (auto& measurement : list)
+    measurement.sigma_px =
+        std::max(kMinSigmaPx, measurement.sigma_px * scales[group_of(measurements, measurement)]);
+}
+
+void remove_outliers(double limit, std::vector<Residual>& list) {
+  for (auto& measurement : list) measurement.used = measurement.used && measurement.normalised() <= limit;
+}
+
+/// Terms that the lens model does not have are 0, those of a fixed camera stay.
+RigState with_terms_of(const std::vector<LensModel>& lenses, const SessionViews& measurements,
+                       RigState state) {
+  for (std::size_t s = 0; s < state.sensors.size(); ++s) {
+    if (measurements.given_cameras[s] && measurements.given_cameras[s]->fixed) continue;
+    auto& terms = state.sensors[s].camera.distortion;
+    std::array<double, kDistortionTerms> kept{};
+    for (const int i : free_terms(lenses[s]))
+      kept[static_cast<std::size_t>(i)] = terms[static_cast<std::size_t>(i)];
+    terms = kept;
+  }
+  return state;
+}
+
+double redundancy_of(const ceres::Solver::Summary& summary) {
+  return std::max(0.1, 1.0 - static_cast<double>(summary.num_effective_parameters_reduced) /
+                                 summary.num_residuals_reduced);
+}
+
+}  // namespace
+
+JointAdjustment adjust_jointly(const SessionViews& measurements, const RigState& start,
+                               const std::vector<LensModel>& lenses, const CalibrationOptions& options) {
+  using Loss = ProblemOptions::Loss;
+  enum { kGivenSigmas, kRobustSigmas, kWithoutOutliers, kFinal, kRounds };
+  // Huber finds its way from a rough start; Cauchy then lets go of a stripe or a view that is wrong as a
+  // whole.
+  static constexpr std::array<Loss, kRounds> kLosses{Loss::kHuber, Loss::kCauchy, Loss::kSquared,
+                                                     Loss::kSquared};
+  JointAdjustment result;
+  result.state = with_terms_of(lenses, measurements, start);
+  result.lenses = lenses;
+  result.measurements = list_measurements(measurements, options);
+  for (std::size_t round = 0; round < kRounds; ++round) {
+    drop_unseen(measurements, result.state, result.measurements);
+    JointProblem joint(measurements, result.state, result.measurements,
+                       {lenses, options.board_warp, kLosses[round], options.robust_scale});
+    const auto summary = solve_problem(joint, options.max_iterations, round < kFinal ? 1e-8 : 1e-11);
+    result.iterations += static_cast<int>(summary.iterations.size());
+    result.converged = summary.termination_type == ceres::CONVERGENCE;
+    if (!summary.IsSolutionUsable()) return result;
+    result.state = joint.state();
+    read_residuals(joint, result.measurements);
+    const double redundancy = redundancy_of(summary);
+    if (round == kGivenSigmas || round == kRobustSigmas)
+      estimate_sigmas(measurements, Spread::kMedian, redundancy, result.measurements);
+    if (round == kRobustSigmas) remove_outliers(options.outlier_sigma, result.measurements);
+    if (round == kWithoutOutliers)
+      estimate_sigmas(measurements, Spread::kRms, redundancy, result.measurements);
+    if (round != kFinal) continue;
+    result.sigma0 = std::sqrt(2 * summary.final_cost / summary.num_residuals_reduced / redundancy);
+    result.globals = joint.globals();
+    const auto reduced = reduced_covariance(joint);
+    result.covariance = result.sigma0 * result.sigma0 * reduced.covariance;
+    result.condition = reduced.condition;
+  }
+  return result;
+}
+
+}  // namespace lightstripe

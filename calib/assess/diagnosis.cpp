@@ -1,0 +1,62 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+#include "calib/assess/diagnosis.h"
+
+#include <algorithm>
+#include <array>
+
+#include "calib/adjust/rig_frame.h"
+
+namespace lightstripe {
+
+std::vector<ResidualSample> residual_samples(const SessionViews& measurements,
+                                             const JointAdjustment& adjustment) {
+  std::vector<ResidualSample> samples;
+  samples.reserve(adjustment.measurements.size());
+  for (const auto& m : adjustment.measurements) {
+    const auto& view = measurements.views[m.view];
+    ResidualSample sample{static_cast<int>(m.view), m.is_corner(), m.used, {}, m.residual_px, m.normalised()};
+    if (m.is_corner()) {
+      sample.pixel = view.corners[m.index];
+    } else {
+      const auto& point = view.stripes[static_cast<std::size_t>(m.plane)][m.index];
+      sample.pixel = {point.x, point.y};
+    }
+    samples.push_back(sample);
+  }
+  return samples;
+}
+
+std::vector<double> corner_coverage(const SessionViews& measurements, const JointAdjustment& adjustment) {
+  constexpr int kColumns = 8, kRows = 6;
+  std::vector<std::array<bool, kColumns * kRows>> hit(measurements.sensor_names.size());
+  for (const auto& m : adjustment.measurements) {
+    if (!m.is_corner() || !m.used) continue;
+    const auto s = static_cast<std::size_t>(measurements.views[m.view].sensor);
+    const auto& size = measurements.image_sizes[s];
+    const auto& q = measurements.views[m.view].corners[m.index];
+    const int x = std::clamp(static_cast<int>(kColumns * q.x() / size[0]), 0, kColumns - 1);
+    const int y = std::clamp(static_cast<int>(kRows * q.y() / size[1]), 0, kRows - 1);
+    hit[s][static_cast<std::size_t>(y * kColumns + x)] = true;
+  }
+  std::vector<double> shares;
+  for (const auto& grid : hit)
+    shares.push_back(static_cast<double>(std::count(grid.begin(), grid.end(), true)) / (kColumns * kRows));
+  return shares;
+}
+
+CalibrationDiagnosis diagnose(const SessionViews& measurements, const JointAdjustment& adjustment,
+                              const Eigen::Vector3d& up, const CalibrationOptions& options) {
+  CalibrationDiagnosis result;
+  result.residuals = residual_samples(measurements, adjustment);
+  result.map = uncertainty_map(measurements, adjustment, up, options.range_near_mm, options.range_far_mm);
+  result.cross_validation = cross_validate(measurements, adjustment, up, options);
+  result.weakest = weakest_direction(measurements, adjustment, up);
+  result.corner_coverage = corner_coverage(measurements, adjustment);
+  const Rigid3 rig = rig_from_first(adjustment.state, measurements.motion, up);
+  for (const auto& pose : adjustment.state.first_from_board) result.rig_from_board.push_back(rig * pose);
+  result.pose_names = measurements.poses;
+  return result;
+}
+
+}  // namespace lightstripe

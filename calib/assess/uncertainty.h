@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+// What the adjustment's covariance means: sigma of every parameter, and millimetres in the section.
+#pragma once
+
+#include <Eigen/Core>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "calib/adjust/joint_adjustment.h"
+
+namespace lightstripe {
+
+/// 1-sigma by name: "gauge.camera.fx" (px; k1.. without unit), "gauge.laser_planes.0.normal_deg" and
+/// ".offset_mm" (camera frame), "field.pose.rotation_deg" and ".translation_mm" (in the first sensor's
+/// frame), "board.warp_x_mm", "motion.direction_deg", "motion.axis_point_mm". Directions, rotations and
+/// points: root of the summed variances of their components.
+std::map<std::string, double> parameter_sigmas(const SessionViews& measurements,
+                                               const JointAdjustment& adjustment);
+
+/// Errors of the points (y, z of the rig frame) where the calibration saw stripes, over all sensors together:
+/// root mean square of their length, mm.
+struct SectionUncertainty {
+  double absolute_mm = 0;
+  double shape_mm = 0;  ///< after the best rigid move in the section plane
+};
+
+SectionUncertainty section_uncertainty(const SessionViews& measurements, const JointAdjustment& adjustment,
+                                       const Eigen::Vector3d& up);
+
+/// The pixels for which section_uncertainty stands: the used stripe points, at most 150 a laser plane.
+struct SectionSample {
+  int sensor = 0, plane = 0;
+  Eigen::Vector2d pixel;
+};
+std::vector<SectionSample> section_samples(const SessionViews& measurements,
+                                           const std::vector<Residual>& list);
+
+/// (y, z) in the rig frame of every sample, one after the other; a ray that misses the plane gives (0, 0).
+Eigen::VectorXd section_of(const RigState& state, MotionType motion, const Eigen::Vector3d& up,
+                           const std::vector<SectionSample>& samples);
+
+/// d section_of / d(shared unknowns of the covariance), 2n x m.
+Eigen::MatrixXd section_jacobian(const SessionViews& measurements, const JointAdjustment& adjustment,
+                                 const Eigen::Vector3d& up, const std::vector<SectionSample>& samples);
+
+/// Orthogonal projector that takes the rigid motions of the section's points (two shifts, one turn) out of a
+/// displacement of all of them; 2n x 2n.
+Eigen::MatrixXd without_rigid_motion(const Eigen::VectorXd& section);
+
+}  // namespace lightstripe

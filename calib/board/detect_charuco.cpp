@@ -1,0 +1,134 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+#include "calib/board/detect_charuco.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <opencv2/aruco/charuco.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "calib/board/board_reasons.h"
+#include "calib/observations.h"
+#include "core/error.h"
+
+namespace lightstripe {
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr int kMinCorners = 8;
+constexpr double kRefineWindow = 0.8;  // half the window, as a share of the gap between corner and markers
+
+constexpr std::array<std::pair<std::string_view, int>, 17> kDictionaries{
+    {{"DICT_4X4_50", cv::aruco::DICT_4X4_50},
+     {"DICT_4X4_100", cv::aruco::DICT_4X4_100},
+     {"DICT_4X4_250", cv::aruco::DICT_4X4_250},
+     {"DICT_4X4_1000", cv::aruco::DICT_4X4_1000},
+     {"DICT_5X5_50", cv::aruco::DICT_5X5_50},
+     {"DICT_5X5_100", cv::aruco::DICT_5X5_100},
+     {"DICT_5X5_250", cv::aruco::DICT_5X5_250},
+     {"DICT_5X5_1000", cv::aruco::DICT_5X5_1000},
+     {"DICT_6X6_50", cv::aruco::DICT_6X6_50},
+     {"DICT_6X6_100", cv::aruco::DICT_6X6_100},
+     {"DICT_6X6_250", cv::aruco::DICT_6X6_250},
+     {"DICT_6X6_1000", cv::aruco::DICT_6X6_1000},
+     {"DICT_7X7_50", cv::aruco::DICT_7X7_50},
+     {"DICT_7X7_100", cv::aruco::DICT_7X7_100},
+     {"DICT_7X7_250", cv::aruco::DICT_7X7_250},
+     {"DICT_7X7_1000", cv::aruco::DICT_7X7_1000},
+     {"DICT_ARUCO_ORIGINAL", cv::aruco::DICT_ARUCO_ORIGINAL}}};
+
+cv::Ptr<cv::aruco::Dictionary> dictionary_of(const Target& target) {
+  for (const auto& [name, number] : kDictionaries)
+    if (name == target.dictionary) return cv::aruco::getPredefinedDictionary(number);
+  throw Error("target.dictionary", target.dictionary + " is no dictionary of OpenCV",
+              "give its name, for example DICT_5X5_100");
+}
+
+bool on_one_line(const std::vector<Vector2d>& corners, const Target& target) {
+  Vector2d mean = Vector2d::Zero();
+  int count = 0;
+  for (int i = 0; i < target.num_corners(); ++i)
+    if (is_seen(corners[static_cast<std::size_t>(i)])) mean += target.corner(i), ++count;
+  mean /= std::max(1, count);
+  Eigen::Matrix2d scatter = Eigen::Matrix2d::Zero();
+  for (int i = 0; i < target.num_corners(); ++i)
+    if (is_seen(corners[static_cast<std::size_t>(i)]))
+      scatter += (target.corner(i) - mean) * (target.corner(i) - mean).transpose();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(scatter / std::max(1, count));
+  return eigen.eigenvalues()[0] <
+         0.05 * std::min(target.pitch_x, target.pitch_y) * std::min(target.pitch_x, target.pitch_y);
+}
+
+/// Distance in the image to the nearest seen neighbour in the row or column.
+double square_px(const std::vector<Vector2d>& corners, const Target& target, int i) {
+  double nearest = 1e9;
+  const int x = i % target.columns, y = i / target.columns;
+  for (const auto& [dx, dy] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}}) {
+    if (x + dx < 0 || x + dx >= target.columns || y + dy < 0 || y + dy >= target.rows) continue;
+    const auto& other = corners[static_cast<std::size_t>(i + dx + dy * target.columns)];
+    if (is_seen(other)) nearest = std::min(nearest, (other - corners[static_cast<std::size_t>(i)]).norm());
+  }
+  return nearest;
+}
+
+void refine(const cv::Mat& gray, const Target& target, std::vector<Vector2d>& corners) {
+  const auto rough = corners;
+  for (int i = 0; i < target.num_corners(); ++i) {
+    auto& corner = corners[static_cast<std::size_t>(i)];
+    if (!is_seen(corner)) continue;
+    const double side = square_px(rough, target, i);
+    if (side > 1e8) {
+      corner = unseen_corner();  // alone: no neighbour vouches for it
+      continue;
+    }
+    const double gap_px = side * (target.pitch_x - target.marker_mm) / 2 / target.pitch_x;
+    const int half = std::max(2, static_cast<int>(kRefineWindow * gap_px));
+    std::vector<cv::Point2f> point{
+        cv::Point2f(static_cast<float>(corner.x()), static_cast<float>(corner.y()))};
+    cv::cornerSubPix(gray, point, cv::Size(half, half), cv::Size(-1, -1),
+                     cv::TermCriteria(cv::TermCriteria::COUNT + cv::TermCriteria::EPS, 50, 1e-4));
+    corner = {point[0].x, point[0].y};
+  }
+}
+
+}  // namespace
+
+BoardDetection detect_charuco(const cv::Mat& gray, const Target& target) {
+  const auto dictionary = dictionary_of(target);
+  const auto board =
+      cv::aruco::CharucoBoard::create(target.columns + 1, target.rows + 1, static_cast<float>(target.pitch_x),
+                                      static_cast<float>(target.marker_mm), dictionary);
+  std::vector<std::vector<cv::Point2f>> markers;
+  std::vector<int> ids;
+  cv::aruco::detectMarkers(gray, dictionary, markers, ids);
+  BoardDetection result;
+  if (ids.empty()) {
+    result.reason = why_not_found(gray, target, {});
+    return result;
+  }
+  cv::Mat corners, corner_ids;
+  cv::aruco::interpolateCornersCharuco(markers, ids, gray, board, corners, corner_ids);
+  result.corners.assign(static_cast<std::size_t>(target.num_corners()), unseen_corner());
+  for (int i = 0; i < corner_ids.rows; ++i) {
+    const auto p = corners.at<cv::Point2f>(i);
+    result.corners[static_cast<std::size_t>(corner_ids.at<int>(i))] = {p.x, p.y};
+  }
+  refine(gray, target, result.corners);
+  const auto seen = std::count_if(result.corners.begin(), result.corners.end(), is_seen);
+  result.found = seen >= kMinCorners && !on_one_line(result.corners, target);
+  if (!result.found) {
+    result.corners.clear();
+    result.reason = fmt::format(
+        "{} markers and {} of {} corners in view, {} corners that are not on one line are needed; "
+        "bring more of the board into view",
+        ids.size(), seen, target.num_corners(), kMinCorners);
+  }
+  return result;
+}
+
+}  // namespace lightstripe

@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+#include "calib/start/initial_values.h"
+
+#include <utility>
+
+namespace lightstripe {
+
+InitialValues initial_values(SessionViews measurements) {
+  InitialValues values;
+  values.measurements = std::move(measurements);
+  start_cameras(values);
+  link_sensors(values);
+  start_laser_planes(values);
+  if (values.measurements.motion != MotionType::kNone) start_motion(values);
+  return values;
+}
+
+void keep_views(InitialValues& values, const std::vector<bool>& keep) {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < keep.size(); ++i) {
+    if (!keep[i]) continue;
+    if (kept != i) {
+      values.measurements.views[kept] = std::move(values.measurements.views[i]);
+      values.cam_from_board[kept] = values.cam_from_board[i];
+    }
+    ++kept;
+  }
+  values.measurements.views.resize(kept);
+  values.cam_from_board.resize(kept);
+}
+
+}  // namespace lightstripe

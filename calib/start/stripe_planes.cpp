@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+#include "calib/start/stripe_planes.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace lightstripe {
+
+using Eigen::Vector3d;
+
+namespace {
+
+constexpr std::size_t kMaxPairs = 2000;  // of views tried as the plane's start
+
+}  // namespace
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+double distance_to(const Plane& plane, const StripeInSpace& stripe) {
+  std::vector<double> distances;
+  for (const auto& p : stripe.points) distances.push_back(std::abs(plane.signed_distance(p)));
+  return median(std::move(distances));
+}
+
+std::vector<StripeInSpace> stripes_in_space(const InitialValues& values, int sensor, std::size_t plane) {
+  std::vector<StripeInSpace> result;
+  const auto& camera = values.state.sensors[static_cast<std::size_t>(sensor)].camera;
+  for (std::size_t i = 0; i < values.measurements.views.size(); ++i) {
+    const auto& view = values.measurements.views[i];
+    if (view.sensor != sensor || view.pose < 0) continue;
+    const Plane board = board_plane(values.cam_from_board[i]);
+    StripeInSpace stripe{i, {}};
+    for (const auto& point : view.stripes[plane]) {
+      const auto ray = unproject(camera, {point.x, point.y});
+      const auto p = ray ? intersect(board, Vector3d::Zero(), *ray) : std::nullopt;
+      if (p) stripe.points.push_back(*p);
+    }
+    if (stripe.points.size() >= kMinStripePoints) result.push_back(std::move(stripe));
+  }
+  return result;
+}
+
+PlaneFit plane_through(const std::vector<const StripeInSpace*>& stripes) {
+  std::vector<Vector3d> points;
+  for (const auto* stripe : stripes)
+    points.insert(points.end(), stripe->points.begin(), stripe->points.end());
+  return fit_plane(points);
+}
+
+/// Least median over the views of the plane through two of them: up to half of the views may show something
+/// else.
+std::optional<Plane> least_median_plane(const std::vector<StripeInSpace>& stripes) {
+  const std::size_t n = stripes.size();
+  const std::size_t step = std::max<std::size_t>(1, n * (n - 1) / 2 / kMaxPairs);
+  double best = std::numeric_limits<double>::infinity();
+  std::optional<Plane> plane;
+  std::size_t pair = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t j = i + 1; j < n; ++j, ++pair) {
+      if (pair % step != 0) continue;
+      const PlaneFit fit = plane_through({&stripes[i], &stripes[j]});
+      if (!fit.determined()) continue;
+      std::vector<double> distances;
+      distances.reserve(n);
+      for (const auto& stripe : stripes) distances.push_back(distance_to(fit.plane, stripe));
+      const double score = median(std::move(distances));
+      if (score >= best) continue;
+      best = score;
+      plane = fit.plane;
+    }
+  }
+  return plane;
+}
+
+}  // namespace lightstripe

@@ -1,0 +1,106 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+#include "extraction/follow/line_seeds.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+#include "extraction/kernels/kernels_scan.h"
+
+namespace lightstripe {
+namespace {
+
+/// Rows that are searched: thin stripes need each one, a line of w >= 7 px each fourth.
+int row_step(double sigma) { return std::clamp(static_cast<int>(sigma), 1, 4); }
+
+/// The columns taken in a row, every so many from the offset on: as sparse as the rows, and staggered, so
+/// that lines along the columns are met.
+struct ColumnPattern {
+  int step, offset;
+  std::uint64_t bits() const {
+    const std::uint64_t first = step == 1 ? ~0ULL : step == 2 ? 0x5555555555555555ULL : 0x0101010101010101ULL;
+    return first << offset;
+  }
+  int first_from(int x) const { return x + (offset - x % step + step) % step; }
+};
+
+ColumnPattern column_pattern(int rows, int row_number) {
+  const int step = rows == 1 ? 1 : rows == 2 ? 2 : 8;
+  return {step, row_number % step};
+}
+
+template <class T>
+T to_pixel(double level) {
+  return static_cast<T>(std::clamp(std::ceil(level), 0.0, double{std::numeric_limits<T>::max()}));
+}
+
+template <class T>
+std::vector<T>& zeros_of(SeedWorkspace& w) {
+  if constexpr (sizeof(T) == 1)
+    return w.zeros8;
+  else
+    return w.zeros16;
+}
+
+template <class T>
+void collect(ImageView<T> image, const SeedRule& rule, SeedWorkspace& w) {
+  const ScanRule<T> scan{to_pixel<T>(std::min(rule.level, rule.brightest)),
+                         std::max(T{1}, to_pixel<T>(rule.contrast)),
+                         std::max(2, static_cast<int>(std::lround(3.2 * rule.sigma)))};
+  const T foreground = to_pixel<T>(rule.foreground);
+  // A rank of 8 bits without a division a pixel.
+  const auto scale = static_cast<std::uint32_t>(255.0 * 65536 / std::max(rule.brightest, 1.0));
+  std::vector<T>& zeros = zeros_of<T>(w);
+  zeros.assign(static_cast<std::size_t>(image.width), T{});
+  w.candidate_masks.resize(static_cast<std::size_t>((image.width + 63) / 64));
+  w.found.clear();
+  const int step = row_step(rule.sigma), edge = std::min(scan.reach, image.width);
+  for (int y = step / 2, number = 0; y < image.height; y += step, ++number) {
+    const ScanRow<T> row{image.row(y), y >= scan.reach ? image.row(y - scan.reach) : zeros.data(),
+                         y + scan.reach < image.height ? image.row(y + scan.reach) : zeros.data()};
+    const auto add = [&](int x) {
+      const T contrast = candidate_contrast(row, x, image.width, scan.reach);
+      if (contrast < scan.contrast || row.centre[x] < scan.level) return;
+      const auto rank = static_cast<std::int32_t>((static_cast<std::uint64_t>(contrast) * scale) >> 16);
+      w.found.push_back({x, y, std::min(rank, 255), row.centre[x] >= foreground});
+    };
+    const ColumnPattern pattern = column_pattern(step, number);
+    for (int x = pattern.offset; x < edge; x += pattern.step) add(x);
+    if (mark_candidates(row, image.width, scan, w.candidate_masks.data()))
+      for (std::size_t word = 0; word < w.candidate_masks.size(); ++word)
+        for (std::uint64_t bits = w.candidate_masks[word] & pattern.bits(); bits != 0; bits &= bits - 1)
+          add(static_cast<int>(word * 64) + std::countr_zero(bits));
+    const int right = std::max(image.width - scan.reach, edge);
+    for (int x = pattern.first_from(right); x < image.width; x += pattern.step) add(x);
+  }
+}
+
+/// A counting sort, which keeps the order of equals.
+void sort_by_rank(SeedWorkspace& w) {
+  constexpr std::int32_t kRanks = 512;
+  const auto place = [](const LineSeed& s) {
+    return static_cast<std::size_t>(kRanks - 1 - ((s.foreground ? 256 : 0) + s.rank));
+  };
+  std::array<std::size_t, kRanks + 1> first{};
+  for (const LineSeed& s : w.found) ++first[place(s) + 1];
+  for (std::size_t i = 1; i < first.size(); ++i) first[i] += first[i - 1];
+  w.sorted.resize(w.found.size());
+  for (const LineSeed& s : w.found) w.sorted[first[place(s)]++] = s;
+}
+
+}  // namespace
+
+template <class T>
+void find_seeds(ImageView<T> image, const SeedRule& rule, SeedWorkspace& workspace) {
+  collect(image, rule, workspace);
+  sort_by_rank(workspace);
+}
+
+template void find_seeds<std::uint8_t>(ImageView8, const SeedRule&, SeedWorkspace&);
+template void find_seeds<std::uint16_t>(ImageView16, const SeedRule&, SeedWorkspace&);
+
+}  // namespace lightstripe

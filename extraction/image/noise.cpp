@@ -1,0 +1,82 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+#include "extraction/image/noise.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <cstdlib>
+
+#include "extraction/image/sampled_pieces.h"
+
+namespace lightstripe {
+namespace {
+
+/// Counts of absolute differences: single levels at first, coarser ones for the large differences of 16-bit
+/// images.
+struct DifferenceCounts {
+  static constexpr int kFine = 2048, kCoarse = 64, kBins = 2 * kFine;
+  std::array<std::uint32_t, kBins> counts{};
+  std::uint64_t total = 0;    ///< triples without a clipped pixel
+  std::uint64_t clipped = 0;  ///< triples with one
+
+  static int bin(int difference) {
+    return difference < kFine ? difference : kFine + (difference - kFine) / kCoarse;
+  }
+  /// Where a bin begins; differences are whole numbers, so that k stands for k - 0.5 ... k + 0.5.
+  static double begin(int bin) {
+    if (bin == 0) return 0;
+    return (bin < kFine ? bin : kFine + (bin - kFine) * kCoarse) - 0.5;
+  }
+};
+
+template <class T>
+void count_differences(const T* pixels, int length, DifferenceCounts& c) {
+  for (int x = 1; x + 1 < length; ++x) {
+    const int left = pixels[x - 1], centre = pixels[x], right = pixels[x + 1];
+    const bool clipped = left == 0 || centre == 0 || right == 0;
+    c.clipped += clipped ? 1U : 0U;
+    c.counts[static_cast<std::size_t>(DifferenceCounts::bin(std::abs(left - 2 * centre + right)))] +=
+        clipped ? 0U : 1U;
+  }
+  if (length > 2) c.total += static_cast<std::uint64_t>(length - 2);
+}
+
+double median_difference(const DifferenceCounts& c) {
+  const double half = 0.5 * static_cast<double>(c.total);
+  double below = 0;
+  for (int bin = 0; bin < DifferenceCounts::kBins; ++bin) {
+    const double count = c.counts[static_cast<std::size_t>(bin)];
+    if (count > 0 && below + count >= half) {
+      const double begin = DifferenceCounts::begin(bin), end = DifferenceCounts::begin(bin + 1);
+      return begin + (half - below) / count * (end - begin);
+    }
+    below += count;
+  }
+  return 0;
+}
+
+}  // namespace
+
+template <class T>
+NoiseEstimate estimate_noise(ImageView<T> image, int thinning) {
+  constexpr double kQuantisation = 0.28867513459481287;  // 1 / sqrt(12)
+  constexpr double kMedianToSigma =
+      1.4826 / 2.449489743;                  // of a normal; second differences have sqrt(6) sigma
+  constexpr double kHalfNormal = 0.6028;     // standard deviation of a halved normal of sigma 1
+  constexpr double kClippedNormal = 0.5838;  // the same with the other half at 0
+  DifferenceCounts c;
+  for_sampled_pieces(image, thinning,
+                     [&](const T* pixels, int length) { count_differences(pixels, length, c); });
+  c.total -= c.clipped;
+  if (c.total == 0) return {kQuantisation, kQuantisation};
+  const double sigma = median_difference(c) * kMedianToSigma;
+  const double full = c.clipped > c.total ? sigma / kHalfNormal : sigma;
+  const double seen = c.clipped > c.total ? full * kClippedNormal : full;
+  return {std::max(kQuantisation, seen), std::max(kQuantisation, full)};
+}
+
+template NoiseEstimate estimate_noise<std::uint8_t>(ImageView8, int);
+template NoiseEstimate estimate_noise<std::uint16_t>(ImageView16, int);
+
+}  // namespace lightstripe

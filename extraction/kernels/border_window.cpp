@@ -1,0 +1,103 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+#include "extraction/kernels/border_window.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+namespace lightstripe {
+namespace {
+
+/// Only where the line leaves the border steeply enough; else the shift would fetch far pixels.
+constexpr double kLeastAcross = 0.3;
+
+/// One row or column of the border, read at places shifted by a constant that need not be whole.
+template <class T>
+struct ShiftedLine {
+  const T* first;
+  std::ptrdiff_t step;
+  int count;
+  int whole;   ///< floor of the shift
+  float part;  ///< the rest
+
+  ShiftedLine(const T* line, std::ptrdiff_t line_step, int line_count, double shift)
+      : first(line), step(line_step), count(line_count) {
+    const double bounded = std::clamp(shift, -1.0 * line_count, 1.0 * line_count);
+    whole = static_cast<int>(std::floor(bounded));
+    part = static_cast<float>(bounded - whole);
+  }
+  /// Whether the places first ... last need no clamping.
+  bool contains(int begin, int end) const { return begin + whole >= 0 && end + whole + 1 < count; }
+  static T between(float a, float b, float part) {
+    return static_cast<T>(static_cast<int>(a + part * (b - a) + 0.5F));
+  }
+  T operator()(int place) const {
+    const int at = place + whole;
+    const double a = first[std::clamp(at, 0, count - 1) * step],
+                 b = first[std::clamp(at + 1, 0, count - 1) * step];
+    return static_cast<T>(a + part * (b - a) + 0.5);
+  }
+};
+
+/// The window's columns left and right of the image, where its rows lie inside.
+template <class T>
+void fill_columns_outside(ImageView<T> image, const BorderWindow& w, std::vector<T>& window) {
+  const double slope = std::abs(w.tangent_x) > kLeastAcross ? w.tangent_y / w.tangent_x : 0.0;
+  const int first = std::max(0, -w.top), last = std::min(w.taps, image.height - w.top);
+  for (int i = 0; i < w.taps; ++i) {
+    const int x = w.left + i;
+    if (x >= 0 && x < image.width) continue;
+    const int column = x < 0 ? 0 : image.width - 1;
+    const ShiftedLine<T> line(image.data + column, image.stride, image.height, slope * (column - x));
+    T* out = window.data() + first * w.pitch + i;
+    if (!line.contains(w.top + first, w.top + last)) {
+      for (int j = first; j < last; ++j, out += w.pitch) *out = line(w.top + j);
+      continue;
+    }
+    const T* pixel = line.first + (w.top + first + line.whole) * line.step;
+    float previous = *pixel;
+    for (int j = first; j < last; ++j, out += w.pitch) {
+      pixel += line.step;
+      const float next = *pixel;
+      *out = ShiftedLine<T>::between(previous, next, line.part);
+      previous = next;
+    }
+  }
+}
+
+/// A row above or below the image, from its border row; the corners are repeated.
+template <class T>
+void fill_row_outside(ImageView<T> image, const BorderWindow& w, int y, T* out) {
+  const int border = y < 0 ? 0 : image.height - 1;
+  const double slope = std::abs(w.tangent_y) > kLeastAcross ? w.tangent_x / w.tangent_y : 0.0;
+  const ShiftedLine<T> line(image.row(border), 1, image.width, slope * (border - y));
+  for (int i = 0; i < w.taps; ++i) {
+    const int x = w.left + i;
+    out[i] = x < 0 ? image.row(border)[0] : x >= image.width ? image.row(border)[image.width - 1] : line(x);
+  }
+}
+
+}  // namespace
+
+template <class T>
+void fill_border_window(ImageView<T> image, const BorderWindow& place, std::vector<T>& window) {
+  window.assign(static_cast<std::size_t>(place.taps) * static_cast<std::size_t>(place.pitch), T{});
+  const int first = std::clamp(-place.left, 0, place.taps);
+  const int last = std::clamp(image.width - place.left, first, place.taps);
+  for (int j = 0; j < place.taps; ++j) {
+    const int y = place.top + j;
+    T* out = window.data() + static_cast<std::ptrdiff_t>(j) * place.pitch;
+    if (y >= 0 && y < image.height)
+      std::copy(image.row(y) + place.left + first, image.row(y) + place.left + last, out + first);
+    else
+      fill_row_outside(image, place, y, out);
+  }
+  fill_columns_outside(image, place, window);
+}
+
+template void fill_border_window<std::uint8_t>(ImageView8, const BorderWindow&, std::vector<std::uint8_t>&);
+template void fill_border_window<std::uint16_t>(ImageView16, const BorderWindow&,
+                                                std::vector<std::uint16_t>&);
+
+}  // namespace lightstripe

@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+// The inner loop of point evaluation: one pass over a window, three vertical filters and six dot products.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "extraction/kernels/kernels.h"
+
+namespace lightstripe {
+
+/// `top_left`: the window's first pixel; taps rows, of each `pitch` pixels may be read (those from `taps` on
+/// have weight 0). `weights_x`, `weights_y`: three kernels of `pitch` weights. Vectors of the best
+/// instruction set at hand.
+Derivatives window_derivatives(const std::uint8_t* top_left, std::ptrdiff_t stride, const float* weights_x,
+                               const float* weights_y, int taps, int pitch);
+Derivatives window_derivatives(const std::uint16_t* top_left, std::ptrdiff_t stride, const float* weights_x,
+                               const float* weights_y, int taps, int pitch);
+
+/// The same written plainly: the reference of the tests.
+template <class T>
+Derivatives window_derivatives_scalar(const T* top_left, std::ptrdiff_t stride, const float* weights_x,
+                                      const float* weights_y, int taps, int pitch) {
+  const float *x0 = weights_x, *x1 = weights_x + pitch, *x2 = weights_x + 2 * pitch;
+  const float *y0 = weights_y, *y1 = weights_y + pitch, *y2 = weights_y + 2 * pitch;
+  double value = 0, dx = 0, dy = 0, dxx = 0, dxy = 0, dyy = 0;
+  for (int i = 0; i < taps; ++i) {
+    double smooth = 0, slope = 0, curvature = 0;
+    for (int j = 0; j < taps; ++j) {
+      const double grey = top_left[j * stride + i];
+      smooth += grey * y0[j];
+      slope += grey * y1[j];
+      curvature += grey * y2[j];
+    }
+    value += smooth * x0[i];
+    dx += smooth * x1[i];
+    dxx += smooth * x2[i];
+    dy += slope * x0[i];
+    dxy += slope * x1[i];
+    dyy += curvature * x0[i];
+  }
+  return {static_cast<float>(value), static_cast<float>(dx),  static_cast<float>(dy),
+          static_cast<float>(dxx),   static_cast<float>(dxy), static_cast<float>(dyy)};
+}
+
+}  // namespace lightstripe

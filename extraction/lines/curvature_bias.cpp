@@ -1,0 +1,79 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+#include "extraction/lines/curvature_bias.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "extraction/lines/local_fit.h"
+
+namespace lightstripe {
+namespace {
+
+constexpr std::size_t kLeastReach = 2;  // nodes to both sides
+
+/// The way from a smoothed node to the true line. `sigma_px`: the node's own error.
+LocalFitPoint shift_of(const LocalFit& fit, double curvature_gain, double sigma, double sigma_px) {
+  const double half_variance = 0.5 * (sigma * sigma + 1.0 / 12);
+  // Neighbouring points share their noise over 2 sqrt(pi) sigma.
+  const double shared = std::max(1.0, 3.545 * sigma / std::sqrt(fit.squared_step));
+  const double error = sigma_px * curvature_gain / fit.squared_step, variance = error * error * shared;
+  const double square = fit.curvature_x * fit.curvature_x + fit.curvature_y * fit.curvature_y;
+  if (square <= 0) return {};
+  const double weight = square / (square + 9 * variance);
+  // A bend sharper than the kernel is a corner, where the series behind the formula ends.
+  const double size = half_variance * std::sqrt(square), limit = 0.25 * sigma;
+  const double shift = weight * half_variance * (size > limit ? limit / size : 1.0);
+  return {-shift * fit.curvature_x, -shift * fit.curvature_y};
+}
+
+/// One stretch without gaps and bridges.
+void correct_stretch(std::span<StripePoint> points, double sigma, BendWorkspace& w) {
+  // The bend of a line that was smoothed over sigma changes little within one.
+  const auto stride = static_cast<std::size_t>(std::max(1.0, sigma));
+  const auto most = std::max<std::size_t>(
+      3, static_cast<std::size_t>(std::lround((3.0 * sigma + 2) / static_cast<double>(stride))));
+  w.nodes.clear();
+  for (std::size_t i = 0; i < points.size(); i += stride) w.nodes.push_back({points[i].x, points[i].y});
+  w.shifts.assign(w.nodes.size(), {});
+  LocalFitter fitter(w.nodes);
+  double gain = 0;
+  std::size_t gain_reach = 0;
+  for (std::size_t n = 0; n < w.nodes.size(); ++n) {
+    const std::size_t reach = std::min({most, n, w.nodes.size() - 1 - n});
+    if (reach < kLeastReach) continue;
+    if (reach != gain_reach) gain = local_fit_gains(gain_reach = reach).curvature;
+    w.shifts[n] = shift_of(fitter.at(n, reach), gain, sigma, points[n * stride].sigma_px);
+  }
+  // Too near the ends for a fit of their own: the bend goes on.
+  for (std::size_t n = 0; n < kLeastReach && w.nodes.size() > 2 * kLeastReach; ++n) {
+    w.shifts[n] = w.shifts[kLeastReach];
+    w.shifts[w.nodes.size() - 1 - n] = w.shifts[w.nodes.size() - 1 - kLeastReach];
+  }
+  const double step = 1 / static_cast<double>(stride);
+  for (std::size_t n = 0; n < w.nodes.size(); ++n) {
+    const LocalFitPoint a = w.shifts[n], b = w.shifts[std::min(n + 1, w.shifts.size() - 1)];
+    const double dx = step * (b.x - a.x), dy = step * (b.y - a.y);
+    const std::size_t first = n * stride, count = std::min(stride, points.size() - first);
+    for (std::size_t k = 0; k < count; ++k) {
+      points[first + k].x += a.x + static_cast<double>(k) * dx;
+      points[first + k].y += a.y + static_cast<double>(k) * dy;
+    }
+  }
+}
+
+}  // namespace
+
+void correct_curvature_bias(const DerivativeKernels& kernels, LineSet& lines, BendWorkspace& workspace) {
+  for (const LineRange& r : lines.lines) {
+    const std::span<StripePoint> line(lines.points.data() + r.begin, r.size());
+    for (std::size_t begin = 0; begin < line.size();) {
+      const std::size_t end = joined_end(line, begin);
+      correct_stretch(line.subspan(begin, end - begin), kernels.sigma, workspace);
+      begin = end;
+    }
+  }
+}
+
+}  // namespace lightstripe

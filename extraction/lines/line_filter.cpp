@@ -1,0 +1,267 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+#include "extraction/lines/line_filter.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "extraction/follow/bridge.h"
+#include "extraction/lines/line_measure.h"
+
+namespace lightstripe {
+namespace {
+
+/// Pixel noise that remains in the 1:2:1 mean at the centre of a profile.
+constexpr double kTopNoise = 0.62;
+
+struct Trial {
+  const DerivativeKernels& kernels;
+  double noise;
+  const LineFilterOptions& options;
+  LineFilterWorkspace& w;
+  double full_width;         ///< px, of the stripes of this image
+  double profile_noise = 0;  ///< grey levels, of the line on trial: less where its profiles were averaged
+
+  /// Median of the contrasts at i - 1, i, i + 1 inside the range.
+  double contrast(const LineRange& r, std::size_t i) const {
+    const std::size_t a = i > r.begin ? i - 1 : i, b = i + 1 < r.end ? i + 1 : i;
+    return median_of_three(w.measure.contrast[a], w.measure.contrast[i], w.measure.contrast[b]);
+  }
+  static double median_of_three(double a, double b, double c) {
+    return std::max(std::min(a, b), std::min(std::max(a, b), c));
+  }
+};
+
+/// Whether the stripe itself is there, unsmoothed: the kernels see a line's end up to sigma beyond it.
+bool is_lit(const Trial& t, const LineRange& r, std::size_t i) {
+  return t.contrast(r, i) >= 2.5 * kTopNoise * t.profile_noise;
+}
+
+/// Cuts unlit and bridged points off both ends. A lit end has half the contrast of the line a little further
+/// in: what is darker was only blurred over the end.
+LineRange trimmed(const Trial& t, const LineSet& lines, LineRange r) {
+  const auto inside = static_cast<std::size_t>(std::lround(2.0 * t.kernels.sigma)) + 1;
+  const auto bad = [&](std::size_t i, std::size_t further_in) {
+    return (lines.points[i].flags & kStripeBridged) != 0 || !is_lit(t, r, i) ||
+           t.contrast(r, i) < 0.5 * t.contrast(r, further_in);
+  };
+  while (r.size() > inside && bad(r.begin, r.begin + inside)) ++r.begin;
+  while (r.size() > inside && bad(r.end - 1, r.end - 1 - inside)) --r.end;
+  return r.size() > inside ? r : LineRange{r.begin, r.begin};
+}
+
+double median_width(Trial& t, const LineSet& lines, const LineRange& r) {
+  t.w.scratch.clear();
+  for (std::size_t i = r.begin; i < r.end; i += sample_step(r))
+    if ((lines.points[i].flags & kStripeBridged) == 0)
+      t.w.scratch.push_back(static_cast<float>(lines.points[i].width));
+  return median_of(t.w.scratch);
+}
+
+/// Replaces the points between two by a cubic that continues both sides; false where they do not fit.
+bool bridge_stretch(std::vector<StripePoint>& points, std::size_t before, std::size_t after) {
+  if (!can_bridge(points[before], points[after])) return false;
+  for (std::size_t i = before + 1; i < after; ++i)
+    points[i] = bridged_point(points[before], points[after],
+                              static_cast<double>(i - before) / static_cast<double>(after - before));
+  return true;
+}
+
+/// One kept stretch of a line.
+void keep(Trial& t, const LineSet& lines, LineRange r) {
+  r = trimmed(t, lines, r);
+  if (r.size() >= 3) t.w.kept.push_back(r);
+}
+
+/// Share of the range's points that have one of these flags.
+double flagged_share(const LineSet& lines, const LineRange& r, int flags) {
+  std::size_t flagged = 0;
+  for (std::size_t i = r.begin; i < r.end; ++i) flagged += (lines.points[i].flags & flags) != 0 ? 1U : 0U;
+  return static_cast<double>(flagged) / static_cast<double>(r.size());
+}
+
+/// Whether a stretch can be bad at all: medians lie within what they are medians of.
+bool has_bad_point(const Trial& t, const LineSet& lines, const LineRange& r, double width) {
+  const double lit = 2.5 * kTopNoise * t.profile_noise;
+  for (std::size_t i = r.begin; i < r.end; ++i)
+    if (lines.points[i].width > width || static_cast<double>(t.w.measure.contrast[i]) < lit) return true;
+  return false;
+}
+
+/// The bad stretches of a line, those closer than `least_run` good points joined.
+void find_bad_stretches(Trial& t, const LineSet& lines, const LineRange& r, std::size_t least_run,
+                        std::vector<BadStretch>& stretches) {
+  const double width = median_width(t, lines, r);
+  const double spot_width = t.options.spot_width_ratio * width;
+  // Where the line itself is not clipped, a clipped stretch needs less to be a spot.
+  const bool clipped_is_odd = flagged_share(lines, r, kStripeSaturated) < 0.25;
+  const double clipped_spot_width = clipped_is_odd ? 0.5 * (width + spot_width) : spot_width;
+  stretches.clear();
+  if (!has_bad_point(t, lines, r, std::min(clipped_spot_width, spot_width))) return;
+  for (std::size_t i = r.begin; i < r.end; ++i) {
+    const StripePoint &p = lines.points[i], &a = lines.points[i > r.begin ? i - 1 : i],
+                      &b = lines.points[i + 1 < r.end ? i + 1 : i];
+    const bool clipped = (p.flags & kStripeSaturated) != 0;
+    const bool wide =
+        Trial::median_of_three(a.width, p.width, b.width) > (clipped ? clipped_spot_width : spot_width);
+    if (!wide && is_lit(t, r, i)) continue;
+    if (stretches.empty() || i - stretches.back().last > (wide || stretches.back().spot ? least_run : 1))
+      stretches.push_back({i, i, wide});
+    stretches.back().last = i;
+    stretches.back().spot = stretches.back().spot || wide;
+  }
+}
+
+/// Bright spots on the line: bridged where both sides agree, else the line is cut there. Long unlit stretches
+/// cut, too.
+void mend_or_cut(Trial& t, LineSet& lines, const LineRange& whole) {
+  const LineRange r = trimmed(t, lines, whole);
+  if (r.size() < 3) return;
+  const auto longest = static_cast<std::size_t>(t.options.max_spot_widths * t.full_width);
+  const auto margin = static_cast<std::size_t>(std::lround(t.kernels.sigma));
+  const auto least_run = static_cast<std::size_t>(std::lround(1.5 * t.full_width));
+  find_bad_stretches(t, lines, r, least_run, t.w.stretches);
+  std::size_t begin = r.begin;
+  for (const BadStretch& bad : t.w.stretches) {
+    if (!bad.spot && bad.last - bad.first < longest) {
+      // Dark, but the kernels followed a ridge there: it stays as a bridge.
+      for (std::size_t k = bad.first; k <= bad.last; ++k) lines.points[k].flags |= kStripeBridged;
+      continue;
+    }
+    const std::size_t grown = bad.spot ? margin + 1 : 1;
+    const std::size_t before = bad.first > begin + grown ? bad.first - grown : begin;
+    const std::size_t after = std::min(bad.last + grown, r.end);
+    // A short rest behind a spot is the spot's own tip.
+    const bool inside = before >= begin + least_run && after + least_run <= r.end;
+    if (inside && bad.last - bad.first < longest && bridge_stretch(lines.points, before, after)) continue;
+    keep(t, lines, {begin, before});
+    begin = after;
+  }
+  keep(t, lines, {begin, r.end});
+}
+
+/// The intensity that a quarter of the points exceed: half of a line over a checkerboard lies on black
+/// squares.
+double typical_intensity(Trial& t, const LineSet& lines, const LineRange& r) {
+  t.w.scratch.clear();
+  for (std::size_t i = r.begin; i < r.end; i += sample_step(r))
+    if ((lines.points[i].flags & kStripeBridged) == 0) t.w.scratch.push_back(lines.points[i].intensity);
+  if (t.w.scratch.empty()) return 0;
+  const auto upper = t.w.scratch.begin() + static_cast<std::ptrdiff_t>(t.w.scratch.size() * 3 / 4);
+  std::nth_element(t.w.scratch.begin(), upper, t.w.scratch.end());
+  return *upper;
+}
+
+LineFacts facts_of(Trial& t, const LineSet& lines, const LineRange& r) {
+  constexpr std::size_t kChord = 4;  // points; shorter chords would add up the noise as well
+  LineFacts facts;
+  for (std::size_t i = r.begin; i + 1 < r.end; i += kChord) {
+    const StripePoint &p = lines.points[i], &next = lines.points[std::min(i + kChord, r.end - 1)];
+    const double dx = next.x - p.x, dy = next.y - p.y;
+    facts.length += std::sqrt(dx * dx + dy * dy);
+  }
+  std::size_t bridged = 0, odd = 0;
+  for (std::size_t i = r.begin; i < r.end; ++i) {
+    const StripePoint& p = lines.points[i];
+    bridged += (p.flags & kStripeBridged) != 0 ? 1U : 0U;
+    odd += (p.flags & (kStripeBridged | kStripeAsymmetric)) != 0 ? 1U : 0U;
+    facts.mean_strength += p.strength;
+  }
+  const auto count = static_cast<double>(r.size());
+  facts.mean_strength /= count;
+  facts.bridged_share = static_cast<double>(bridged) / count;
+  facts.odd_share = static_cast<double>(odd) / count;
+  facts.width = median_width(t, lines, r);
+  facts.intensity = typical_intensity(t, lines, r);
+  return facts;
+}
+
+/// Length and width tests, which need no other line; a short line has to be the more regular.
+bool is_stripe_like(const Trial& t, const LineFacts& line) {
+  if (line.length < t.options.min_length * t.full_width || line.bridged_share > 0.5) return false;
+  const double ratio = std::max(line.width, 1e-3) / t.full_width;
+  const double most =
+      line.length < 12 * t.full_width ? 0.75 * t.options.max_width_ratio : t.options.max_width_ratio;
+  return ratio < most && 1.0 / ratio < 1.5 * most;
+}
+
+/// What a strong stripe of this image looks like.
+struct Reference {
+  double intensity = 0;  ///< of the brightest line, short ones counting less
+  double width = 0;      ///< px, mean over the lines at least half as bright, weighted by their length
+};
+
+Reference strong_stripe(const Trial& t) {
+  const double full_length = 3 * t.options.min_length * t.full_width;
+  Reference reference;
+  for (const LineFacts& line : t.w.facts)
+    reference.intensity =
+        std::max(reference.intensity, line.intensity * std::min(1.0, line.length / full_length));
+  double sum = 0, weights = 0;
+  for (const LineFacts& line : t.w.facts) {
+    if (line.intensity < 0.5 * reference.intensity) continue;
+    sum += line.width * line.length;
+    weights += line.length;
+  }
+  reference.width = weights > 0 ? sum / weights : t.full_width;
+  return reference;
+}
+
+/// Brightness against the strong lines: weak lines have to be regular and as wide as the strong ones.
+bool is_bright_enough(const Trial& t, const LineFacts& line, const Reference& reference) {
+  const double share = line.intensity / reference.intensity;
+  // Single pixels of a wide stripe may drown in noise that its ridge stands out of.
+  const double visible = t.options.min_contrast_to_noise * t.noise / std::max(1.0, t.kernels.sigma);
+  const double strength_noise = t.noise * t.kernels.curvature_gain;
+  if (line.intensity < visible || line.mean_strength < 5 * strength_noise || share < t.options.min_contrast)
+    return false;
+  if (share > t.options.clear_contrast) return true;
+  // The weaker, the longer: dim edges are short.
+  if (line.length * share < t.options.clear_contrast * t.options.min_length * t.full_width) return false;
+  const double ratio = line.width / reference.width;
+  // Bridges and uneven flanks are rare on a stripe, frequent on stains and edges.
+  return line.odd_share < 0.2 && ratio > 0.65 && ratio < 1.5;
+}
+
+/// Removes the lines (and their facts) that fail.
+template <class Test>
+void keep_if(LineSet& lines, std::vector<LineFacts>& facts, const Test& test) {
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < lines.lines.size(); ++k) {
+    if (!test(facts[k])) continue;
+    lines.lines[kept] = lines.lines[k];
+    facts[kept++] = facts[k];
+  }
+  lines.lines.resize(kept);
+  facts.resize(kept);
+}
+
+}  // namespace
+
+template <class T>
+void filter_lines(ImageView<T> image, const DerivativeKernels& kernels, double noise,
+                  const LineFilterOptions& options, LineFilterWorkspace& workspace, LineSet& lines) {
+  Trial trial{kernels, noise, options, workspace, 2 * std::numbers::sqrt3 * kernels.sigma};
+  measure_points(image, kernels, noise, lines, workspace.measure);
+  workspace.kept.clear();
+  for (std::size_t k = 0; k < lines.lines.size(); ++k) {
+    trial.profile_noise = noise / std::sqrt(workspace.measure.averaged[k]);
+    mend_or_cut(trial, lines, lines.lines[k]);
+  }
+  std::swap(lines.lines, workspace.kept);
+  workspace.facts.clear();
+  for (const LineRange& r : lines.lines) workspace.facts.push_back(facts_of(trial, lines, r));
+  keep_if(lines, workspace.facts, [&](const LineFacts& line) { return is_stripe_like(trial, line); });
+  const Reference reference = strong_stripe(trial);
+  keep_if(lines, workspace.facts,
+          [&](const LineFacts& line) { return is_bright_enough(trial, line, reference); });
+}
+
+template void filter_lines<std::uint8_t>(ImageView8, const DerivativeKernels&, double,
+                                         const LineFilterOptions&, LineFilterWorkspace&, LineSet&);
+template void filter_lines<std::uint16_t>(ImageView16, const DerivativeKernels&, double,
+                                          const LineFilterOptions&, LineFilterWorkspace&, LineSet&);
+
+}  // namespace lightstripe

@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+// How noisy the light of a stripe is: photon noise grows with the light, and the background does not show it.
+#pragma once
+
+#include <vector>
+
+#include "core/image.h"
+#include "extraction/kernels/kernels.h"
+#include "extraction/lines/line_set.h"
+
+namespace lightstripe {
+
+/// Standard deviation of the pixel noise on the ridge of one line, grey levels: the median second difference
+/// of the brightest pixels along it, the sub-pixel place of each made good. Nothing but `background_noise`
+/// where too few neighbouring points are unclipped.
+template <class T>
+double noise_on_ridge(ImageView<T> image, const LineSet& lines, const LineRange& range,
+                      double background_noise, std::vector<float>& scratch);
+
+/// Sets sigma_px of every point from its strength and the noise of background and ridge.
+template <class T>
+void predict_errors(ImageView<T> image, const DerivativeKernels& kernels, double background_noise,
+                    LineSet& lines, std::vector<float>& scratch);
+
+}  // namespace lightstripe

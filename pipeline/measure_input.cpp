@@ -1,0 +1,114 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+#include "pipeline/measure_input.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+
+#include "core/error.h"
+#include "io/nominal_outlines.h"
+#include "io/tables.h"
+#include "measure/profile_formats.h"
+#include "measure/robust_line.h"
+
+namespace lightstripe {
+namespace {
+
+RecordedProfile read_recorded(const std::string& path, ProfileFormat format, ObjectKind kind) {
+  std::ifstream in(path, std::ios::binary);
+  if (!in) throw Error(path, "cannot be read", "check the name");
+  RecordedProfile profile =
+      format == ProfileFormat::kMiniProf ? read_miniprof(in, path, kind) : read_simpack(in, path);
+  if (profile.kind != kind)
+    throw Error(path, "is a " + kind_name(profile.kind), "give --kind " + kind_name(profile.kind));
+  return profile;
+}
+
+MeasureInput input_of(const RecordedProfile& recorded) {
+  MeasureInput input;
+  Profile profile;
+  for (const Eigen::Vector2d& p : recorded.points) {
+    ProfilePoint point;
+    point.position = {0, p.x(), p.y()};
+    point.u = p.x(), point.v = p.y();
+    profile.points.push_back(point);
+  }
+  input.profiles.push_back(std::move(profile));
+  if (recorded.kind == ObjectKind::kRail) return input;
+  input.prior.pose = SectionPose{};
+  input.wheel.back_is_given = true;
+  if (const auto diameter = recorded.number("DiameterTaperline"))
+    input.wheel.radius_offset_mm = *diameter / 2;
+  return input;
+}
+
+/// Median rms of some sections that can be registered to this rail; nothing if fewer than half can.
+std::optional<double> median_rms(const std::vector<Profile>& profiles, const std::string& name,
+                                 const RegistrationOptions& options) {
+  constexpr std::size_t kSections = 7;
+  const ReferenceShape reference = read_reference(name, ObjectKind::kRail);
+  std::vector<double> rms;
+  const std::size_t count = std::min(kSections, profiles.size());
+  for (std::size_t i = 0; i < count; ++i) {
+    const Section section = section_of(profiles[i * profiles.size() / count]);
+    const Registration registration = register_section(section, reference, {}, options);
+    if (registration.usable()) rms.push_back(registration.rms_mm);
+  }
+  if (2 * rms.size() < count || rms.empty()) return std::nullopt;
+  return median_of(std::move(rms));
+}
+
+}  // namespace
+
+std::string kind_name(ObjectKind kind) { return kind == ObjectKind::kRail ? "rail" : "wheel"; }
+
+MeasureInput read_measure_input(const std::string& path, ObjectKind kind) {
+  if (const auto format = profile_format(path)) return input_of(read_recorded(path, *format, kind));
+  MeasureInput input;
+  input.profiles = read_profiles(path);
+  if (input.profiles.empty()) throw Error(path, "has no rows", "give the sections of a scan");
+  if (kind == ObjectKind::kRail) return input;
+  input.wheel.radial = sections_are_radial(input.profiles);
+  input.prior.may_mirror = true;
+  input.prior.may_be_upside_down = !input.wheel.radial;
+  input.prior.upright = input.wheel.radial;
+  return input;
+}
+
+ReferenceShape read_reference(const std::string& nominal, ObjectKind kind) {
+  const std::string name = !nominal.empty() ? nominal : kind == ObjectKind::kRail ? "60E1" : "S1002";
+  if (const auto format = profile_format(name)) {
+    const Section baseline = section_of(read_recorded(name, *format, kind));
+    const Outline chain = outline_of_section(baseline);
+    // Material lies on the left of an outline's passage: a rail's head runs from right to left, a wheel from
+    // field to flange.
+    const bool leftwards = baseline.back().position.x() < baseline.front().position.x();
+    return ReferenceShape(name, kind, leftwards ? chain : reversed(chain));
+  }
+  NominalProfile profile = read_nominal_profile(name);
+  if (profile.kind != kind_name(kind))
+    throw Error(name, "is the outline of a " + (profile.kind.empty() ? "thing without kind" : profile.kind),
+                "give the outline of a " + kind_name(kind) + ", or the other --kind");
+  return ReferenceShape(profile.name.empty() ? name : profile.name, kind, std::move(profile.outline));
+}
+
+IdentifiedRail identify_rail(const std::vector<Profile>& profiles, const RegistrationOptions& options) {
+  constexpr double kAsGood = 1.25;  // times the best rms
+  std::vector<std::pair<double, std::string>> fits;
+  for (const std::string& name : nominal_names()) {
+    if (read_nominal_profile(name).kind != "rail") continue;
+    if (const auto rms = median_rms(profiles, name, options)) fits.emplace_back(*rms, name);
+  }
+  if (fits.empty())
+    throw Error("--nominal auto", "none of the built-in rails fits the sections",
+                "name the rail or give its outline");
+  std::sort(fits.begin(), fits.end());
+  IdentifiedRail found{fits[0].second, {}};
+  for (std::size_t i = 1; i < fits.size(); ++i)
+    if (fits[i].first < kAsGood * fits[0].first) found.also.push_back(fits[i].second);
+  return found;
+}
+
+}  // namespace lightstripe

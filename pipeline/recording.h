@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+// What a scan file names, opened: the pictures of every sensor by frame, and where the rig stood.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/rig.h"
+#include "io/frame_numbers.h"
+#include "io/images.h"
+#include "io/session_file.h"
+#include "reconstruct/travel.h"
+
+namespace lightstripe {
+
+class Recording {
+ public:
+  /// `scan_file` stands in messages. An Error where the scan and the rig do not fit each other.
+  Recording(const Scan& scan, const std::string& scan_file, const Rig& rig);
+
+  std::int64_t first_frame() const { return map_.first; }
+  std::int64_t end_frame() const { return map_.end; }
+  const std::vector<std::string>& duplicate_pictures() const { return map_.duplicate_pictures; }
+
+  /// The picture; nothing where the scan names none for this sensor. An Error where it is missing or damaged.
+  std::optional<GreyImage> read(std::int64_t frame, int sensor) const;
+  std::optional<FramePosition> position(std::int64_t frame) const;
+  /// Whether a picture or a row of the travel table speaks of this frame.
+  bool recorded(std::int64_t frame) const;
+  /// Name of the picture, empty where there is none.
+  std::string picture_name(std::int64_t frame, int sensor) const;
+  /// travel.csv or poses.csv, if the scan has one.
+  const std::optional<std::filesystem::path>& table() const { return table_; }
+
+ private:
+  void open_sensors(const Scan& scan, const std::string& scan_file);
+  void read_positions(const Scan& scan, const std::string& scan_file);
+  void refuse_other_size(const std::string& scan_file) const;
+  std::vector<std::int64_t> frames_of_table() const;
+
+  const Rig& rig_;
+  std::vector<std::unique_ptr<FrameSource>> sources_;  ///< by the rig's sensors; null: not in the scan
+  FrameMap map_;
+  TravelSource travel_ = TravelSource::kNone;
+  double step_ = 0;
+  std::optional<std::filesystem::path> table_;
+  TravelReadings readings_;
+  std::map<std::int64_t, Rigid3> poses_;
+  Rigid3 posed_from_rig_;  ///< the frame that the poses are of
+};
+
+}  // namespace lightstripe

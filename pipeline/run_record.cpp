@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+#include "pipeline/run_record.h"
+
+#include <fmt/format.h>
+
+#include <fstream>
+
+#include "core/error.h"
+#include "io/atomic_file.h"
+
+namespace lightstripe {
+namespace {
+
+struct InputFacts {
+  std::uint64_t bytes = 0, hash = kFnvStart;
+};
+
+InputFacts facts_of(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw Error(path.string(), "cannot be read", "check the path");
+  InputFacts facts;
+  std::vector<char> part(std::size_t{1} << 20);
+  while (file.read(part.data(), static_cast<std::streamsize>(part.size())), file.gcount() > 0) {
+    const auto got = static_cast<std::size_t>(file.gcount());
+    facts.bytes += got;
+    facts.hash = fnv1a({part.data(), got}, facts.hash);
+  }
+  return facts;
+}
+
+}  // namespace
+
+std::uint64_t fnv1a(std::string_view bytes, std::uint64_t before) {
+  for (const char byte : bytes) before = (before ^ static_cast<unsigned char>(byte)) * 0x100000001b3ULL;
+  return before;
+}
+
+std::string indented(const std::string& text) {
+  std::string out;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    out += "  " + text.substr(begin, end - begin) + "\n";
+    begin = end + 1;
+  }
+  return out;
+}
+
+void write_run_record(const std::filesystem::path& output, const std::string& command,
+                      const std::vector<std::filesystem::path>& inputs, const std::string& options) {
+  std::string text = fmt::format("lightstripe: {}\ncommand: {}\ninputs:\n", LIGHTSTRIPE_VERSION, command);
+  for (const auto& input : inputs) {
+    const InputFacts facts = facts_of(input);
+    text += fmt::format("  - {{file: \"{}\", bytes: {}, fnv1a: \"{:016x}\"}}\n", input.string(), facts.bytes,
+                        facts.hash);
+  }
+  write_file(output.string() + ".run.yaml", text + options);
+}
+
+}  // namespace lightstripe
