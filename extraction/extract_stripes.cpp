@@ -198,14 +198,14 @@ template <class T>
 void finish_lines(const Run<T>& run) {
   ExtractionWorkspace& w = run.w;
   smooth_measures(w.kernels, w.lines, w.values);
-  predict_errors(run.image, w.kernels, run.facts.noise.full, w.lines, w.values);
+  predict_errors(run.image, w.kernels, run.facts.noise.full, w.lines, w.errors);
   if (has_ridges(run.options.method)) {
     mend_line_ends(w.kernels, w.lines, w.bends.nodes);
     mend_junctions(w.kernels, w.lines);
   }
   if (run.options.curvature_correction && has_ridges(run.options.method))
     correct_curvature_bias(w.kernels, w.lines, w.bends);
-  if (run.options.smoothing) smooth_along_lines(w.kernels, w.lines, w.smoothing);
+  if (run.options.smoothing) smooth_along_lines(w.lines, w.smoothing);
 }
 
 template <class T>

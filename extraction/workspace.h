@@ -13,6 +13,7 @@
 #include "extraction/kernels/kernels.h"
 #include "extraction/lines/curvature_bias.h"
 #include "extraction/lines/line_filter.h"
+#include "extraction/lines/line_noise.h"
 #include "extraction/lines/line_set.h"
 #include "extraction/lines/smoothing.h"
 
@@ -26,6 +27,7 @@ struct ExtractionWorkspace {
   DirectionGuidedWorkspace<std::uint16_t> direction_guided16;
   WholeImageWorkspace whole_image;
   GreyValueWorkspace grey_values;
+  ErrorWorkspace errors;
   SmoothingWorkspace smoothing;
   BendWorkspace bends;
   std::vector<float> values;
