@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "extraction/follow/line_point.h"
 #include "extraction/lines/cross_profile.h"
@@ -90,6 +91,7 @@ struct LineErrors {
   double background = 0;  ///< noise, grey levels
   double photons = 0;     ///< at the typical intensity, beyond the background's noise
   double grain = 0;       ///< speckle, texture
+  double row = 0;         ///< of a single row's centre
 };
 
 template <class T>
@@ -109,6 +111,7 @@ LineErrors errors_of_line(ImageView<T> image, const DerivativeKernels& kernels, 
   e.grain = scatter.grained_point(kernels.sigma);
   const double photons = photon_noise(image, lines, r, background_noise, e.intensity, w.values);
   e.photons = std::pow(centre_sigma(kernels, std::sqrt(photons * e.intensity), strength), 2);
+  e.row = kSharedBySigma * kernels.sigma * (camera + e.photons);
   if (scatter.rows == 0) return e;
   // Speckle makes the ridge noisy as well: then the rows alone decide. Without it the ridge knows better,
   // unless the rows clearly disagree (clipping, which hides the ridge's noise).
@@ -116,19 +119,30 @@ LineErrors errors_of_line(ImageView<T> image, const DerivativeKernels& kernels, 
   const double doubt = e.grain > 0 ? 0 : 3 * 1.7 / std::sqrt(scatter.rows) * white;
   const double by_rows = std::max(0.0, white - camera - doubt);
   e.photons = e.grain > 0 ? by_rows : std::max(e.photons, by_rows);
+  e.row = scatter.white_variance + scatter.grain_variance;
   const double variance = std::max(1e-12, camera + e.photons + e.grain);
   r.shared_px =
       (kSharedBySigma * kernels.sigma * (camera + e.photons) + scatter.grained_density()) / variance;
   return e;
 }
 
-double predicted_error(const LineErrors& e, const DerivativeKernels& kernels, const StripePoint& p) {
+/// Which share of a point's kernel lies beyond the picture's border, where the last row stands for all.
+template <class T>
+double share_outside(ImageView<T> image, double sigma, const StripePoint& p) {
+  const double along_x = std::max(std::abs(p.normal_y), 1e-3), along_y = std::max(std::abs(p.normal_x), 1e-3);
+  const double inside = std::min(std::min(p.x, image.width - 1 - p.x) / along_x,
+                                 std::min(p.y, image.height - 1 - p.y) / along_y);
+  return inside > 3 * sigma ? 0.0 : 0.5 * std::erfc((inside + 0.5) / (sigma * std::numbers::sqrt2));
+}
+
+double predicted_error(const LineErrors& e, const DerivativeKernels& kernels, const StripePoint& p,
+                       double outside) {
   // A bridged point is as good as the curve between its neighbours: it has their scatter, and more.
   const double own = centre_sigma(kernels, e.background, p.strength);
   const double camera = (p.flags & kStripeBridged) == 0 ? own : std::max(5 * own, 0.1 * kernels.sigma);
   // Photons are the noisier the dimmer the line is; speckle is not.
   const double light = std::max(static_cast<double>(p.intensity), 0.1 * e.intensity);
-  return std::sqrt(camera * camera + e.photons * e.intensity / light + e.grain);
+  return std::sqrt(camera * camera + e.photons * e.intensity / light + e.grain + outside * outside * e.row);
 }
 
 }  // namespace
@@ -139,7 +153,8 @@ void predict_errors(ImageView<T> image, const DerivativeKernels& kernels, double
   for (LineRange& r : lines.lines) {
     const LineErrors errors = errors_of_line(image, kernels, background_noise, lines, r, w);
     for (std::size_t i = r.begin; i < r.end; ++i)
-      lines.points[i].sigma_px = predicted_error(errors, kernels, lines.points[i]);
+      lines.points[i].sigma_px = predicted_error(errors, kernels, lines.points[i],
+                                                 share_outside(image, kernels.sigma, lines.points[i]));
   }
 }
 

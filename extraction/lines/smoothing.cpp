@@ -29,7 +29,7 @@ Estimate estimate(LocalFitter& fitter, std::size_t i, std::size_t reach, std::si
   const LocalFit fit = fitter.at(centre, reach);
   return {fit.x + offset * (fit.slope_x + 0.5 * offset * fit.second_x),
           fit.y + offset * (fit.slope_y + 0.5 * offset * fit.second_y),
-          std::min(1.0, shared * local_fit_variance(reach, offset))};
+          shared * local_fit_variance(reach, offset)};
 }
 
 /// Of the difference of two fits, the wider of which uses the narrower one's points, against a point's own.
@@ -49,6 +49,7 @@ void smooth_segment(std::span<StripePoint> points, double shared_px, SmoothingWo
   }
   w.wider.resize(points.size());
   w.misfit.resize(points.size() + 1);
+  w.telling.assign(points.size() + 1, 0);
   double wanted = kNarrowest * shared;
   for (int level = 0; level < kLevels; ++level, wanted *= kGrowth) {
     const std::size_t reach = std::min(static_cast<std::size_t>(wanted), (points.size() - 1) / 2);
@@ -60,12 +61,15 @@ void smooth_segment(std::span<StripePoint> points, double shared_px, SmoothingWo
       const double across =
           (e.x - w.current[i].x) * points[i].normal_x + (e.y - w.current[i].y) * points[i].normal_y;
       const double expected = points[i].sigma_px * points[i].sigma_px * difference_variance(w.current[i], e);
-      w.misfit[i + 1] = w.misfit[i] + across * across / expected;
+      // Near the ends a narrow parabola is worse than the point: there its difference tells nothing.
+      const bool tells = e.variance < w.current[i].variance;
+      w.misfit[i + 1] = w.misfit[i] + (tells ? across * across / expected : 0.0);
+      w.telling[i + 1] = w.telling[i] + (tells ? 1 : 0);
     }
     for (std::size_t i = 0; i < points.size(); ++i) {
       const std::size_t first = i > 2 * reach ? i - 2 * reach : 0,
                         end = std::min(points.size(), i + 2 * reach + 1);
-      const double mean = (w.misfit[end] - w.misfit[first]) / static_cast<double>(end - first);
+      const double mean = (w.misfit[end] - w.misfit[first]) / std::max(1, w.telling[end] - w.telling[first]);
       const bool grows = w.current[i].growing && mean < kMostMisfit;
       // What the differences exceed their expectation by is the line's bend.
       const double bend = std::max(0.0, mean - 1) * difference_variance(w.current[i], w.wider[i]);

@@ -21,6 +21,7 @@ struct SmoothingWorkspace {
   };
   std::vector<Estimate> current, wider;
   std::vector<double> misfit;  ///< running sums of squared differences over their expectation
+  std::vector<int> telling;    ///< running count of those differences
   std::vector<LocalFitPoint> places;
 };
 
