@@ -21,6 +21,7 @@ struct ReconstructArguments {
   std::string scan, rig, profiles, preview;
   std::string frames;  ///< "A:B": frames A to B - 1; either may be left out
   bool strict = false, resume = false;
+  bool dry_run = false;  ///< only tell which frames there are
   double checkpoint_s = 1;
   Overrides extraction;
 };
@@ -84,6 +85,11 @@ ReconstructJob job_of(const ReconstructArguments& arguments) {
 
 int run_reconstruct(const ReconstructArguments& arguments) {
   ReconstructJob job = job_of(arguments);
+  if (arguments.dry_run) {
+    const auto [first, end] = frames_to_reconstruct(job);
+    fmt::print("frames: {}:{}\n", first, end);
+    return kExitDone;
+  }
   CloudPreview preview;
   if (!arguments.preview.empty()) draw_preview_of(job, preview, arguments.preview);
   const InterruptWatch interrupt;
@@ -112,6 +118,8 @@ void add_reconstruct_command(CLI::App& app, Command& run) {
                       "A:B: only the frames A to B - 1 (`lightstripe merge` joins such parts)");
   command->add_flag("--strict", arguments->strict,
                     "a picture that is missing or cannot be read ends the run");
+  command->add_flag("--dry-run", arguments->dry_run,
+                    "read the scan file, print the frames that would be reconstructed (A:B), and stop");
   command->add_flag("--resume", arguments->resume, "go on where an interrupted run was ended");
   command
       ->add_option("--checkpoint", arguments->checkpoint_s,

@@ -9,6 +9,7 @@ find_dependency(yaml-cpp)
 find_dependency(OpenCV 4.6 COMPONENTS core imgproc imgcodecs videoio calib3d features2d)
 find_dependency(Ceres 2.1)
 find_dependency(TBB)
+find_dependency(TIFF)
 find_dependency(PkgConfig)
 pkg_check_modules(hwy REQUIRED IMPORTED_TARGET libhwy)
 # By pkg-config: PCLConfig.cmake would also want all that VTK was built with (MPI, Qt ...).

@@ -234,6 +234,11 @@ ReconstructJob read_reconstruct_job(const fs::path& scan_file, const fs::path& r
   return job;
 }
 
+std::pair<std::int64_t, std::int64_t> frames_to_reconstruct(const ReconstructJob& job) {
+  const Run run = open_run(job);
+  return {run.first_frame, run.end_frame};
+}
+
 ReconstructResult reconstruct(const ReconstructJob& job, const ProgressCallback& progress,
                               const std::stop_token& stop) {
   const JobThreads threads(job.threads);

@@ -9,6 +9,7 @@
 #include <optional>
 #include <stop_token>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/profile.h"
@@ -46,6 +47,9 @@ struct ReconstructJob {
 /// the one that the scan names, if not empty.
 ReconstructJob read_reconstruct_job(const std::filesystem::path& scan_file,
                                     const std::filesystem::path& rig_file = {});
+
+/// The first frame of the job and the one behind its last.
+std::pair<std::int64_t, std::int64_t> frames_to_reconstruct(const ReconstructJob& job);
 
 struct ReconstructResult {
   ScanSummary summary;
