@@ -44,7 +44,7 @@ endfunction()
 
 # What a static library of ours needs in `pkg-config --libs`: modules that Debian has, and plain libraries.
 set(pkg_config_requires_core eigen3)
-set(pkg_config_requires_io fmt yaml-cpp opencv4 libdeflate)
+set(pkg_config_requires_io fmt yaml-cpp opencv4 libdeflate libtiff-4)
 set(pkg_config_requires_extraction opencv4 libhwy)
 set(pkg_config_requires_calib fmt opencv4 tbb)
 set(pkg_config_libs_calib -lceres -lglog)
