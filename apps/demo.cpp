@@ -103,7 +103,7 @@ std::vector<QuantityError> measure_wear(const Scene& scene, const SimulationSumm
   for (const auto& warning : result.warnings) warn(warning);
   const fs::path page = folder / "measure.html";
   write_file(page, measure_report_html(job, result, page, simulated.scan));
-  if (!result.usable()) return {};
+  if (result.num_ok == 0) return {};
   return compare_wear(result.rows, job.kind, simulated.truth);
 }
 

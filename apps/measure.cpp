@@ -98,8 +98,12 @@ int run_measure(const MeasureArguments& arguments) {
   if (!arguments.report.empty())
     write_file(arguments.report, measure_report_html(job, result, arguments.report, arguments.scan));
   summarise(arguments, job, result);
-  if (!result.usable())
-    return not_usable(fmt::format("none of {} frames could be measured completely", result.rows.size()));
+  if (!result.usable()) return not_usable(result.not_usable);
+  if (result.num_ok == 0)
+    warn(
+        fmt::format("none of {} frames could be measured completely: what is not known is an empty cell "
+                    "(--require names what you need)",
+                    result.rows.size()));
   return kExitDone;
 }
 
@@ -129,6 +133,11 @@ void add_measure_command(CLI::App& app, Command& run) {
       ->transform(CLI::CheckedTransformer(rails));
   command->add_option("--nominal-right", arguments->job.reference.nominal_right,
                       "with --rails two: the new rail at -y [as --nominal]");
+  command
+      ->add_option("--require", arguments->job.options.required,
+                   "what you need of each section, e.g. vertical_wear,side_wear: a row is ok where these are "
+                   "known, exit code 3 where none of them is [all]")
+      ->delimiter(',');
   command->add_option("--scan", arguments->scan, "scan file: the report links to its pictures");
   command->add_option("--limits", arguments->limits_file, "file of limits (YAML)");
   command->add_option("--report", arguments->report, "report to look at (HTML)");

@@ -3,6 +3,7 @@
 #include "pipeline/measure_job.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <sstream>
@@ -11,6 +12,7 @@
 #include "io/atomic_file.h"
 #include "io/rig_file.h"
 #include "io/yaml_binding.h"
+#include "measure/measure_track.h"
 #include "measure/profile_formats.h"
 #include "pipeline/measurement_table.h"
 #include "pipeline/run_record.h"
@@ -69,7 +71,27 @@ void warn_of_likeness(const IdentifiedRail& found, std::vector<std::string>& war
                   found.name, fmt::join(found.also, ", ")));
 }
 
+/// Each name that the user requires has to be a column of the table.
+void check_required(const MeasureJob& job) {
+  std::vector<std::string> names = estimate_names(job.kind);
+  const auto extras = job.reference.two_rails ? track_extra_names() : extra_names(job.kind);
+  names.insert(names.end(), extras.begin(), extras.end());
+  for (const std::string& name : job.options.required)
+    if (std::find(names.begin(), names.end(), name) == names.end())
+      throw Error("--require", fmt::format("'{}' is no quantity of a {}", name, kind_name(job.kind)),
+                  fmt::format("name one of {}", fmt::join(names, ", ")));
+}
+
+std::string why_not_usable(const MeasureJob& job, const MeasureResult& result) {
+  if (result.num_known > 0) return "";
+  return job.options.required.empty()
+             ? fmt::format("nothing could be measured in any of {} frames", result.rows.size())
+             : fmt::format("none of {} is known in any of {} frames", fmt::join(job.options.required, ", "),
+                           result.rows.size());
+}
+
 MeasureResult prepare(const MeasureJob& job) {
+  check_required(job);
   std::vector<std::string> warnings;
   MeasureInput input = read_measure_input(job.profiles.string(), job.kind);
   if (!job.rig.empty() && job.kind == ObjectKind::kWheel)
@@ -109,8 +131,10 @@ MeasureResult measure(const MeasureJob& job, const ProgressCallback& progress, c
   for (const MeasuredFrame& row : result.rows) {
     result.verdicts.push_back(verdict_name(judge(row, job.limits)));
     result.num_ok += row.status == "ok" ? 1 : 0;
+    result.num_known += any_known(row, job.options) ? 1 : 0;
   }
   write_results(job, result);
+  result.not_usable = why_not_usable(job, result);
   return result;
 }
 

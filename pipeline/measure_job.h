@@ -39,9 +39,11 @@ struct MeasureResult {
   std::vector<std::string> verdicts{};       ///< of each row against the limits: pass, fail, unknown or empty
   std::vector<std::string> extra_columns{};  ///< names of the rows' extras
   std::optional<RunOut> run_out{};           ///< of a wheel
-  int num_ok = 0;                            ///< rows in which everything could be measured
+  int num_ok = 0;     ///< rows in which everything that the user needs (options.required) is known
+  int num_known = 0;  ///< rows in which something of it is known
   std::vector<std::string> warnings{};
-  bool usable() const { return num_ok > 0; }
+  std::string not_usable{};  ///< why; empty: some row is known
+  bool usable() const { return not_usable.empty(); }
 };
 
 /// Reads, measures and writes the table, the exported sections and the run's record (<table>.run.yaml). An
