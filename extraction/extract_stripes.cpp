@@ -206,6 +206,8 @@ void finish_lines(const Run<T>& run) {
   if (run.options.curvature_correction && has_ridges(run.options.method))
     correct_curvature_bias(w.kernels, w.lines, w.bends);
   if (run.options.smoothing) smooth_along_lines(w.lines, w.smoothing);
+  // Last: neither bends nor smoothing may take a bias for scatter.
+  add_asymmetry(run.image, w.kernels, w.lines, w.asymmetry);
 }
 
 template <class T>

@@ -12,6 +12,7 @@
 #include "extraction/follow/direction_guided.h"
 #include "extraction/kernels/kernels.h"
 #include "extraction/lines/curvature_bias.h"
+#include "extraction/lines/line_asymmetry.h"
 #include "extraction/lines/line_filter.h"
 #include "extraction/lines/line_noise.h"
 #include "extraction/lines/line_set.h"
@@ -28,6 +29,7 @@ struct ExtractionWorkspace {
   WholeImageWorkspace whole_image;
   GreyValueWorkspace grey_values;
   ErrorWorkspace errors;
+  AsymmetryWorkspace asymmetry;
   SmoothingWorkspace smoothing;
   BendWorkspace bends;
   std::vector<float> values;

@@ -38,24 +38,25 @@ Crossing crossing_at(const StripePoint& p) {
   return {is_row, index, centre - (index - place) * along / across, std::abs(across)};
 }
 
-/// The first derivative of one row, smoothed along the row only, grey levels / px.
+/// The centre of one row less that of the line, px along the row, for kernels along the row only.
+/// `strength`: the line's, across it.
 template <class T>
-double row_slope(ImageView<T> image, const DerivativeKernels& kernels, const Crossing& c) {
+double row_offset(ImageView<T> image, const DerivativeKernels& kernels, const Crossing& c, double strength) {
   const int count = c.is_row ? image.width : image.height;
   const std::ptrdiff_t step = c.is_row ? 1 : image.stride;
   const T* line = c.is_row ? image.row(c.index) : image.data + c.index;
   const PhasedPosition at = to_phase(c.centre);
-  const float* weights = kernels.phase(at.phase) + kernels.pitch;
+  const float* weights = kernels.phase(at.phase) + kernels.pitch;  // of the first derivative
   const int first = at.pixel - kernels.radius;
-  float sum = 0;
+  float slope = 0;
   if (first >= 0 && first + kernels.taps <= count) {
     const T* pixel = line + first * step;
-    for (int k = 0; k < kernels.taps; ++k, pixel += step) sum += weights[k] * static_cast<float>(*pixel);
+    for (int k = 0; k < kernels.taps; ++k, pixel += step) slope += weights[k] * static_cast<float>(*pixel);
   } else {
     for (int k = 0; k < kernels.taps; ++k)
-      sum += weights[k] * static_cast<float>(line[std::clamp(first + k, 0, count - 1) * step]);
+      slope += weights[k] * static_cast<float>(line[std::clamp(first + k, 0, count - 1) * step]);
   }
-  return double{sum};
+  return at.value() - c.centre + double{slope} / (strength * c.cosine * c.cosine);
 }
 
 /// Whether the line bends too much around a point for its rows to be told from its shape: a radius below 40
@@ -89,7 +90,7 @@ double collect_offsets(ImageView<T> image, const DerivativeKernels& kernels, con
     }
     if (c.is_row == last.is_row && c.index == last.index) continue;  // two points in one row
     if (c.is_row != last.is_row || std::abs(c.index - last.index) != 1) offsets.push_back(kGap);
-    offsets.push_back(static_cast<float>(row_slope(image, kernels, c) / (p.strength * c.cosine)));
+    offsets.push_back(static_cast<float>(c.cosine * row_offset(image, kernels, c, p.strength)));
     cosines += c.cosine;
     used += 1;
     last = c;
