@@ -56,7 +56,7 @@ Channel parse_channel(const std::string& text) {
   for (const auto& [value, name] : enum_names(Channel{}))
     if (name == text) return value;
   throw Error("--channel", "'" + text + "' is no channel",
-              "use auto, gray, red, green, blue, red-excess, green-excess or blue-excess");
+              "use auto, gray, or red, green or blue, alone or with -excess, -laser or -clipped");
 }
 
 struct Extracted {
@@ -73,21 +73,29 @@ struct ExtractMemory {
 
 Extracted extract_one(const std::string& file, Channel channel, const ExtractionOptions& options,
                       const std::optional<fs::path>& overlay, bool explain, ExtractMemory& memory) {
-  const Image8 image = read_image(file, channel);
-  extract_stripes(image, options, memory.workspace, memory.result);
+  Channel chosen = channel;
+  const GreyImage image = read_grey_image(file, channel, &chosen);
+  std::visit(
+      [&](const auto& pixels) { extract_stripes(pixels.view(), options, memory.workspace, memory.result); },
+      image);
   const ExtractionResult& result = memory.result;
   Extracted out;
   append_stripes(out.rows, file, result.stripes);
   out.lines = result.stripes.size();
   for (const auto& stripe : result.stripes) out.points += stripe.points.size();
-  if (overlay) write_rgb_image(*overlay, draw_overlay(image, result.stripes), image.width, image.height);
+  if (overlay) {
+    RgbImage picture = read_rgb_image(file);
+    draw_stripes(picture.pixels, picture.width, picture.height, result.stripes);
+    write_rgb_image(*overlay, picture.pixels, picture.width, picture.height);
+  }
   if (!explain) return out;
-  out.explanation = explain_extraction(file, options, result);
+  out.explanation = explain_extraction(file, chosen, options, result);
   if (overlay) {
     fs::path picture = *overlay;
     picture.replace_filename(overlay->stem().string() + "_histogram.png");
-    write_rgb_image(picture, draw_histogram(compute_histogram(image.view()), result), kHistogramPlotWidth,
-                    kHistogramPlotHeight);
+    const Histogram histogram =
+        std::visit([](const auto& pixels) { return compute_histogram(pixels.view()); }, image);
+    write_rgb_image(picture, draw_histogram(histogram, result), kHistogramPlotWidth, kHistogramPlotHeight);
   }
   return out;
 }
@@ -149,7 +157,7 @@ void add_extract_command(CLI::App& app, Command& run) {
   add_common_options(*command, arguments->common, "table of points (default: stripes.csv)");
   command->add_option(
       "--channel", arguments->channel,
-      "of colour images: auto, gray, red, green, blue, red-excess, green-excess, blue-excess");
+      "of colour images: auto, gray, or red, green, blue, alone or with -excess, -laser, -clipped");
   command->add_option("--overlay", arguments->overlay_folder, "folder for pictures with the lines drawn in");
   command->add_flag("--explain", arguments->explain,
                     "print how the thresholds came about; with --overlay also draw the histogram");

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "extraction/follow/bridge.h"
+#include "extraction/kernels/width_rule.h"
 #include "extraction/lines/line_measure.h"
 
 namespace lightstripe {
@@ -193,33 +193,38 @@ struct Reference {
   double width = 0;      ///< px, mean over the lines at least half as bright, weighted by their length
 };
 
-Reference strong_stripe(const Trial& t) {
-  const double full_length = 3 * t.options.min_length * t.full_width;
+Reference strong_stripe(std::span<const FilteredLines> groups, const LineFilterOptions& options) {
   Reference reference;
-  for (const LineFacts& line : t.w.facts)
-    reference.intensity =
-        std::max(reference.intensity, line.intensity * std::min(1.0, line.length / full_length));
-  double sum = 0, weights = 0;
-  for (const LineFacts& line : t.w.facts) {
-    if (line.intensity < 0.5 * reference.intensity) continue;
-    sum += line.width * line.length;
-    weights += line.length;
+  for (const FilteredLines& group : groups) {
+    const double full_length = 3 * options.min_length * full_width_of(group.kernels->sigma);
+    for (const LineFacts& line : *group.facts)
+      reference.intensity =
+          std::max(reference.intensity, line.intensity * std::min(1.0, line.length / full_length));
   }
-  reference.width = weights > 0 ? sum / weights : t.full_width;
+  double sum = 0, weights = 0;
+  for (const FilteredLines& group : groups)
+    for (const LineFacts& line : *group.facts) {
+      if (line.intensity < 0.5 * reference.intensity) continue;
+      sum += line.width * line.length;
+      weights += line.length;
+    }
+  if (weights > 0) reference.width = sum / weights;
   return reference;
 }
 
 /// Brightness against the strong lines: weak lines have to be regular and as wide as the strong ones.
-bool is_bright_enough(const Trial& t, const LineFacts& line, const Reference& reference) {
+bool is_bright_enough(const DerivativeKernels& kernels, double noise, const LineFilterOptions& options,
+                      const LineFacts& line, const Reference& reference) {
   const double share = line.intensity / reference.intensity;
   // Single pixels of a wide stripe may drown in noise that its ridge stands out of.
-  const double visible = t.options.min_contrast_to_noise * t.noise / std::max(1.0, t.kernels.sigma);
-  const double strength_noise = t.noise * t.kernels.curvature_gain;
-  if (line.intensity < visible || line.mean_strength < 5 * strength_noise || share < t.options.min_contrast)
+  const double visible = options.min_contrast_to_noise * noise / std::max(1.0, kernels.sigma);
+  const double strength_noise = noise * kernels.curvature_gain;
+  if (line.intensity < visible || line.mean_strength < 5 * strength_noise || share < options.min_contrast)
     return false;
-  if (share > t.options.clear_contrast) return true;
+  if (share > options.clear_contrast) return true;
   // The weaker, the longer: dim edges are short.
-  if (line.length * share < t.options.clear_contrast * t.options.min_length * t.full_width) return false;
+  if (line.length * share < options.clear_contrast * options.min_length * full_width_of(kernels.sigma))
+    return false;
   const double ratio = line.width / reference.width;
   // Bridges and uneven flanks are rare on a stripe, frequent on stains and edges.
   return line.odd_share < 0.2 && ratio > 0.65 && ratio < 1.5;
@@ -242,8 +247,9 @@ void keep_if(LineSet& lines, std::vector<LineFacts>& facts, const Test& test) {
 
 template <class T>
 void filter_lines(ImageView<T> image, const DerivativeKernels& kernels, double noise,
-                  const LineFilterOptions& options, LineFilterWorkspace& workspace, LineSet& lines) {
-  Trial trial{kernels, noise, options, workspace, 2 * std::numbers::sqrt3 * kernels.sigma};
+                  const LineFilterOptions& options, LineFilterWorkspace& workspace, LineSet& lines,
+                  std::vector<LineFacts>& facts) {
+  Trial trial{kernels, noise, options, workspace, full_width_of(kernels.sigma)};
   measure_points(image, kernels, noise, lines, workspace.measure);
   workspace.kept.clear();
   for (std::size_t k = 0; k < lines.lines.size(); ++k) {
@@ -251,17 +257,24 @@ void filter_lines(ImageView<T> image, const DerivativeKernels& kernels, double n
     mend_or_cut(trial, lines, lines.lines[k]);
   }
   std::swap(lines.lines, workspace.kept);
-  workspace.facts.clear();
-  for (const LineRange& r : lines.lines) workspace.facts.push_back(facts_of(trial, lines, r));
-  keep_if(lines, workspace.facts, [&](const LineFacts& line) { return is_stripe_like(trial, line); });
-  const Reference reference = strong_stripe(trial);
-  keep_if(lines, workspace.facts,
-          [&](const LineFacts& line) { return is_bright_enough(trial, line, reference); });
+  facts.clear();
+  for (const LineRange& r : lines.lines) facts.push_back(facts_of(trial, lines, r));
+  keep_if(lines, facts, [&](const LineFacts& line) { return is_stripe_like(trial, line); });
+}
+
+void drop_faint_lines(std::span<const FilteredLines> groups, double noise, const LineFilterOptions& options) {
+  const Reference reference = strong_stripe(groups, options);
+  for (const FilteredLines& group : groups)
+    keep_if(*group.lines, *group.facts, [&](const LineFacts& line) {
+      return is_bright_enough(*group.kernels, noise, options, line, reference);
+    });
 }
 
 template void filter_lines<std::uint8_t>(ImageView8, const DerivativeKernels&, double,
-                                         const LineFilterOptions&, LineFilterWorkspace&, LineSet&);
+                                         const LineFilterOptions&, LineFilterWorkspace&, LineSet&,
+                                         std::vector<LineFacts>&);
 template void filter_lines<std::uint16_t>(ImageView16, const DerivativeKernels&, double,
-                                          const LineFilterOptions&, LineFilterWorkspace&, LineSet&);
+                                          const LineFilterOptions&, LineFilterWorkspace&, LineSet&,
+                                          std::vector<LineFacts>&);
 
 }  // namespace lightstripe

@@ -4,6 +4,7 @@
 // lit, mended over bright spots, and kept only if it behaves like a stripe over its whole length.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "core/fields.h"
@@ -57,14 +58,25 @@ struct LineFilterWorkspace {
   LineMeasures measure;
   std::vector<float> scratch;
   std::vector<BadStretch> stretches;
-  std::vector<LineFacts> facts;
   std::vector<LineRange> kept;
 };
 
-/// Measures width, intensity and flags of every point, then drops and cuts lines as said above. Lines of one
-/// image are judged together: `noise` is the image's, the stripes' width follows from the kernels' sigma.
+/// Measures width, intensity and flags of every point, cuts the lines as said above and drops those that are
+/// no stripes for themselves: `noise` is the image's, the stripes' width follows from the kernels' sigma.
+/// `facts` gets one entry a line that is left.
 template <class T>
 void filter_lines(ImageView<T> image, const DerivativeKernels& kernels, double noise,
-                  const LineFilterOptions& options, LineFilterWorkspace& workspace, LineSet& lines);
+                  const LineFilterOptions& options, LineFilterWorkspace& workspace, LineSet& lines,
+                  std::vector<LineFacts>& facts);
+
+/// Lines of one scale.
+struct FilteredLines {
+  const DerivativeKernels* kernels = nullptr;
+  LineSet* lines = nullptr;
+  std::vector<LineFacts>* facts = nullptr;
+};
+
+/// Drops the lines that are too faint against the strong ones of the same image, whatever their scale.
+void drop_faint_lines(std::span<const FilteredLines> groups, double noise, const LineFilterOptions& options);
 
 }  // namespace lightstripe

@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+// The numbers by which lines are looked for at their own scales, each with its unit and its reason.
+#pragma once
+
+namespace lightstripe {
+
+struct FollowTuning {
+  /// Octaves: a line within this of a scale already in use shares it. A kernel that is off by a third of an
+  /// octave costs 4 % in accuracy, and one scale for all keeps a picture's lines alike.
+  double shared_scale = 0.4;
+  /// Octaves: a line whose own scale is farther off than this is followed again at it.
+  double refollow_scale = 0.4;
+  /// Of the length before: a line followed again must keep so much, else the first try stands.
+  double kept_length = 0.8;
+  /// Of the least length: what is shorter is no line at this scale, and leaves its place to other scales. The
+  /// exact length is judged later on the measured line.
+  double least_length = 0.6;
+  /// Of the strongest line's height: seeds with less contrast are not tried. The filter of whole lines drops
+  /// what is fainter than lines.min_contrast anyway.
+  double faintest_seed = 0.05;
+  /// Widths and heights of the image: more points than this followed in vain are a crowd of noise, and the
+  /// search ends.
+  double futile_points = 6;
+};
+
+}  // namespace lightstripe
