@@ -72,17 +72,17 @@ FollowRule follow_rule(const Run<T>& run) {
 
 /// Measures and judges the lines of all scales.
 template <class T>
-void filter_groups(const Run<T>& run) {
+void filter_groups(const Run<T>& run, double width_slack) {
   ExtractionWorkspace& w = run.w;
   w.facts.resize(std::max(w.facts.size(), w.groups.count));
   w.filtered.clear();
   for (std::size_t g = 0; g < w.groups.count; ++g) {
     ScaleGroup& group = w.groups.all[g];
-    filter_lines(run.image, *group.kernels, run.facts.noise.seen, run.options.lines, w.tests, group.lines,
-                 w.facts[g]);
+    filter_lines(run.image, *group.kernels, run.facts.noise.seen, run.options.lines, width_slack, w.tests,
+                 group.lines, w.facts[g]);
     w.filtered.push_back({group.kernels, &group.lines, &w.facts[g]});
   }
-  drop_faint_lines(w.filtered, run.facts.noise.seen, run.options.lines);
+  drop_faint_lines(w.filtered, run.facts.noise.seen, run.options.lines, width_slack);
 }
 
 /// All lines at the one scale `result.sigma`.
@@ -115,8 +115,11 @@ void find_lines(const Run<T>& run) {
                                lines);
       break;
   }
-  filter_groups(run);
+  filter_groups(run, 1);
 }
+
+/// The foot of a glowing stripe is up to twice as wide as the core that chose the scale.
+constexpr double kWidthSlack = 2;
 
 /// Each line at its own scale; `result.sigma` becomes that of the longest one.
 template <class T>
@@ -134,7 +137,7 @@ void find_lines_at_own_scale(const Run<T>& run) {
                            }};
   follow_lines_at_own_scale(search, limits, w.kernel_cache, w.direction_guided<T>(), w.own_scale<T>(),
                             w.groups);
-  filter_groups(run);
+  filter_groups(run, kWidthSlack);
   std::size_t longest = 0;
   for (const ScaleGroup& group : w.groups.used())
     for (const LineRange& r : group.lines.lines) {

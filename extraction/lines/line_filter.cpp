@@ -15,13 +15,17 @@ namespace {
 
 /// Pixel noise that remains in the 1:2:1 mean at the centre of a profile.
 constexpr double kTopNoise = 0.62;
+/// Of the smaller over the larger drop: an edge drops on one side only; a line on a step of its own height
+/// has 0.33.
+constexpr double kLeastFlanks = 0.3;
 
 struct Trial {
   const DerivativeKernels& kernels;
   double noise;
   const LineFilterOptions& options;
   LineFilterWorkspace& w;
-  double full_width;         ///< px, of the stripes of this image
+  double full_width;  ///< px, of the stripes of this image
+  double width_slack = 1;
   double profile_noise = 0;  ///< grey levels, of the line on trial: less where its profiles were averaged
 
   /// Median of the contrasts at i - 1, i, i + 1 inside the range.
@@ -36,7 +40,7 @@ struct Trial {
 
 /// Whether the stripe itself is there, unsmoothed: the kernels see a line's end up to sigma beyond it.
 bool is_lit(const Trial& t, const LineRange& r, std::size_t i) {
-  return t.contrast(r, i) >= 2.5 * kTopNoise * t.profile_noise;
+  return t.contrast(r, i) >= 2.5 * kTopNoise * t.profile_noise && t.w.colour[i] != LaserColour::kNone;
 }
 
 /// Cuts unlit and bridged points off both ends. A lit end has half the contrast of the line a little further
@@ -86,7 +90,9 @@ double flagged_share(const LineSet& lines, const LineRange& r, int flags) {
 bool has_bad_point(const Trial& t, const LineSet& lines, const LineRange& r, double width) {
   const double lit = 2.5 * kTopNoise * t.profile_noise;
   for (std::size_t i = r.begin; i < r.end; ++i)
-    if (lines.points[i].width > width || static_cast<double>(t.w.measure.contrast[i]) < lit) return true;
+    if (lines.points[i].width > width || static_cast<double>(t.w.measure.contrast[i]) < lit ||
+        t.w.colour[i] == LaserColour::kNone)
+      return true;
   return false;
 }
 
@@ -114,6 +120,10 @@ void find_bad_stretches(Trial& t, const LineSet& lines, const LineRange& r, std:
   }
 }
 
+double stretch_width(Trial& t, const LineSet& lines, const BadStretch& bad) {
+  return median_width(t, lines, {bad.first, bad.last + 1});
+}
+
 /// Bright spots on the line: bridged where both sides agree, else the line is cut there. Long unlit stretches
 /// cut, too.
 void mend_or_cut(Trial& t, LineSet& lines, const LineRange& whole) {
@@ -123,6 +133,7 @@ void mend_or_cut(Trial& t, LineSet& lines, const LineRange& whole) {
   const auto margin = static_cast<std::size_t>(std::lround(t.kernels.sigma));
   const auto least_run = static_cast<std::size_t>(std::lround(1.5 * t.full_width));
   find_bad_stretches(t, lines, r, least_run, t.w.stretches);
+  const double width = median_width(t, lines, r);
   std::size_t begin = r.begin;
   for (const BadStretch& bad : t.w.stretches) {
     if (!bad.spot && bad.last - bad.first < longest) {
@@ -136,6 +147,8 @@ void mend_or_cut(Trial& t, LineSet& lines, const LineRange& whole) {
     // A short rest behind a spot is the spot's own tip.
     const bool inside = before >= begin + least_run && after + least_run <= r.end;
     if (inside && bad.last - bad.first < longest && bridge_stretch(lines.points, before, after)) continue;
+    // Bloom widens the line, but it goes on inside.
+    if (bad.spot && stretch_width(t, lines, bad) < 2 * t.options.spot_width_ratio * width) continue;
     keep(t, lines, {begin, before});
     begin = after;
   }
@@ -154,6 +167,18 @@ double typical_intensity(Trial& t, const LineSet& lines, const LineRange& r) {
   return *upper;
 }
 
+/// Median over the line of the smaller over the larger drop from the ridge to both sides.
+double flank_ratio(Trial& t, const LineSet& lines, const LineRange& r) {
+  t.w.scratch.clear();
+  for (std::size_t i = r.begin; i < r.end; i += sample_step(r)) {
+    const StripePoint& p = lines.points[i];
+    if ((p.flags & kStripeBridged) != 0) continue;
+    const float smaller = t.w.measure.contrast[i], larger = 2 * p.intensity - smaller;
+    t.w.scratch.push_back(larger > 0 ? std::max(smaller, 0.0F) / larger : 0.0F);
+  }
+  return t.w.scratch.empty() ? 1.0 : median_of(t.w.scratch);
+}
+
 LineFacts facts_of(Trial& t, const LineSet& lines, const LineRange& r) {
   constexpr std::size_t kChord = 4;  // points; shorter chords would add up the noise as well
   LineFacts facts;
@@ -162,17 +187,20 @@ LineFacts facts_of(Trial& t, const LineSet& lines, const LineRange& r) {
     const double dx = next.x - p.x, dy = next.y - p.y;
     facts.length += std::sqrt(dx * dx + dy * dy);
   }
-  std::size_t bridged = 0, odd = 0;
+  std::size_t bridged = 0, odd = 0, coloured = 0;
   for (std::size_t i = r.begin; i < r.end; ++i) {
     const StripePoint& p = lines.points[i];
     bridged += (p.flags & kStripeBridged) != 0 ? 1U : 0U;
     odd += (p.flags & (kStripeBridged | kStripeAsymmetric)) != 0 ? 1U : 0U;
+    coloured += t.w.colour[i] != LaserColour::kNone ? 1U : 0U;
     facts.mean_strength += p.strength;
   }
   const auto count = static_cast<double>(r.size());
   facts.mean_strength /= count;
   facts.bridged_share = static_cast<double>(bridged) / count;
   facts.odd_share = static_cast<double>(odd) / count;
+  facts.coloured_share = static_cast<double>(coloured) / count;
+  facts.flanks = flank_ratio(t, lines, r);
   facts.width = median_width(t, lines, r);
   facts.intensity = typical_intensity(t, lines, r);
   return facts;
@@ -181,10 +209,11 @@ LineFacts facts_of(Trial& t, const LineSet& lines, const LineRange& r) {
 /// Length and width tests, which need no other line; a short line has to be the more regular.
 bool is_stripe_like(const Trial& t, const LineFacts& line) {
   if (line.length < t.options.min_length * t.full_width || line.bridged_share > 0.5) return false;
+  if (line.flanks < kLeastFlanks || line.coloured_share < 0.5) return false;
   const double ratio = std::max(line.width, 1e-3) / t.full_width;
   const double most =
       line.length < 12 * t.full_width ? 0.75 * t.options.max_width_ratio : t.options.max_width_ratio;
-  return ratio < most && 1.0 / ratio < 1.5 * most;
+  return ratio < t.width_slack * most && 1.0 / ratio < 1.5 * t.width_slack * most;
 }
 
 /// What a strong stripe of this image looks like.
@@ -214,7 +243,7 @@ Reference strong_stripe(std::span<const FilteredLines> groups, const LineFilterO
 
 /// Brightness against the strong lines: weak lines have to be regular and as wide as the strong ones.
 bool is_bright_enough(const DerivativeKernels& kernels, double noise, const LineFilterOptions& options,
-                      const LineFacts& line, const Reference& reference) {
+                      double width_slack, const LineFacts& line, const Reference& reference) {
   const double share = line.intensity / reference.intensity;
   // Single pixels of a wide stripe may drown in noise that its ridge stands out of.
   const double visible = options.min_contrast_to_noise * noise / std::max(1.0, kernels.sigma);
@@ -222,12 +251,17 @@ bool is_bright_enough(const DerivativeKernels& kernels, double noise, const Line
   if (line.intensity < visible || line.mean_strength < 5 * strength_noise || share < options.min_contrast)
     return false;
   if (share > options.clear_contrast) return true;
-  // The weaker, the longer: dim edges are short.
-  if (line.length * share < options.clear_contrast * options.min_length * full_width_of(kernels.sigma))
+  // Mirror images and gleams are about as faint as this, but seldom as long and as even as the laser's line.
+  constexpr double kFaint = 0.15, kEvenFlanks = 0.5;
+  const double full_width = full_width_of(kernels.sigma);
+  if (share < kFaint && (line.length < 3 * options.min_length * full_width || line.flanks < kEvenFlanks ||
+                         line.odd_share > 0.1 || line.coloured_share < 0.8))
     return false;
+  // The weaker, the longer: dim edges are short.
+  if (line.length * share < options.clear_contrast * options.min_length * full_width) return false;
   const double ratio = line.width / reference.width;
   // Bridges and uneven flanks are rare on a stripe, frequent on stains and edges.
-  return line.odd_share < 0.2 && ratio > 0.65 && ratio < 1.5;
+  return line.odd_share < 0.2 && ratio > 0.65 / width_slack && ratio < 1.5 * width_slack;
 }
 
 /// Removes the lines (and their facts) that fail.
@@ -243,14 +277,27 @@ void keep_if(LineSet& lines, std::vector<LineFacts>& facts, const Test& test) {
   facts.resize(kept);
 }
 
+template <class T>
+void look_at_colours(ImageView<T> image, const LineSet& lines, std::vector<std::uint8_t>& colour) {
+  colour.assign(lines.points.size(), LaserColour::kSure);
+  if (image.where == nullptr) return;
+  for (std::size_t i = 0; i < colour.size(); ++i) {
+    const StripePoint& p = lines.points[i];
+    const int x = std::clamp(static_cast<int>(p.x + 0.5), 0, image.width - 1),
+              y = std::clamp(static_cast<int>(p.y + 0.5), 0, image.height - 1);
+    colour[i] = image.laser_colour(x, y);
+  }
+}
+
 }  // namespace
 
 template <class T>
 void filter_lines(ImageView<T> image, const DerivativeKernels& kernels, double noise,
-                  const LineFilterOptions& options, LineFilterWorkspace& workspace, LineSet& lines,
-                  std::vector<LineFacts>& facts) {
-  Trial trial{kernels, noise, options, workspace, full_width_of(kernels.sigma)};
+                  const LineFilterOptions& options, double width_slack, LineFilterWorkspace& workspace,
+                  LineSet& lines, std::vector<LineFacts>& facts) {
+  Trial trial{kernels, noise, options, workspace, full_width_of(kernels.sigma), width_slack};
   measure_points(image, kernels, noise, lines, workspace.measure);
+  look_at_colours(image, lines, workspace.colour);
   workspace.kept.clear();
   for (std::size_t k = 0; k < lines.lines.size(); ++k) {
     trial.profile_noise = noise / std::sqrt(workspace.measure.averaged[k]);
@@ -262,19 +309,20 @@ void filter_lines(ImageView<T> image, const DerivativeKernels& kernels, double n
   keep_if(lines, facts, [&](const LineFacts& line) { return is_stripe_like(trial, line); });
 }
 
-void drop_faint_lines(std::span<const FilteredLines> groups, double noise, const LineFilterOptions& options) {
+void drop_faint_lines(std::span<const FilteredLines> groups, double noise, const LineFilterOptions& options,
+                      double width_slack) {
   const Reference reference = strong_stripe(groups, options);
   for (const FilteredLines& group : groups)
     keep_if(*group.lines, *group.facts, [&](const LineFacts& line) {
-      return is_bright_enough(*group.kernels, noise, options, line, reference);
+      return is_bright_enough(*group.kernels, noise, options, width_slack, line, reference);
     });
 }
 
 template void filter_lines<std::uint8_t>(ImageView8, const DerivativeKernels&, double,
-                                         const LineFilterOptions&, LineFilterWorkspace&, LineSet&,
+                                         const LineFilterOptions&, double, LineFilterWorkspace&, LineSet&,
                                          std::vector<LineFacts>&);
 template void filter_lines<std::uint16_t>(ImageView16, const DerivativeKernels&, double,
-                                          const LineFilterOptions&, LineFilterWorkspace&, LineSet&,
+                                          const LineFilterOptions&, double, LineFilterWorkspace&, LineSet&,
                                           std::vector<LineFacts>&);
 
 }  // namespace lightstripe

@@ -4,6 +4,7 @@
 // lit, mended over bright spots, and kept only if it behaves like a stripe over its whole length.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -17,7 +18,7 @@ namespace lightstripe {
 
 struct LineFilterOptions {
   double min_length = 5.0;           ///< shortest line, in full stripe widths
-  double min_contrast = 0.15;        ///< weakest line, as a share of the brightest line's intensity
+  double min_contrast = 0.06;        ///< weakest line, as a share of the brightest line's intensity
   double clear_contrast = 0.4;       ///< below this share a line must also be regular and of the usual width
   double min_contrast_to_noise = 3;  ///< weakest line: median contrast over the image noise
   double max_width_ratio = 2.0;      ///< a line's width against the stripes' width, and the other way round
@@ -45,12 +46,14 @@ struct BadStretch {
 
 /// What a whole line is like.
 struct LineFacts {
-  double length = 0;         ///< px
-  double width = 0;          ///< px, median
-  double intensity = 0;      ///< grey levels, upper quartile
-  double mean_strength = 0;  ///< grey levels / px^2
-  double bridged_share = 0;  ///< of the points
-  double odd_share = 0;      ///< bridged or asymmetric
+  double length = 0;          ///< px
+  double width = 0;           ///< px, median
+  double intensity = 0;       ///< grey levels, upper quartile
+  double mean_strength = 0;   ///< grey levels / px^2
+  double bridged_share = 0;   ///< of the points
+  double odd_share = 0;       ///< bridged or asymmetric
+  double flanks = 1;          ///< median of the smaller over the larger drop to both sides; an edge has 0
+  double coloured_share = 1;  ///< of the points, where the laser's colour is
 };
 
 /// Scratch memory.
@@ -58,16 +61,20 @@ struct LineFilterWorkspace {
   LineMeasures measure;
   std::vector<float> scratch;
   std::vector<BadStretch> stretches;
+  std::vector<std::uint8_t> colour;  ///< one a point: LaserColour
   std::vector<LineRange> kept;
 };
 
 /// Measures width, intensity and flags of every point, cuts the lines as said above and drops those that are
 /// no stripes for themselves: `noise` is the image's, the stripes' width follows from the kernels' sigma.
 /// `facts` gets one entry a line that is left.
+/// `width_slack`: by how much more than max_width_ratio the measured width may differ from the kernels';
+/// above 1 where the line's own strength chose the scale, since glow widens the foot of a stripe, not its
+/// core.
 template <class T>
 void filter_lines(ImageView<T> image, const DerivativeKernels& kernels, double noise,
-                  const LineFilterOptions& options, LineFilterWorkspace& workspace, LineSet& lines,
-                  std::vector<LineFacts>& facts);
+                  const LineFilterOptions& options, double width_slack, LineFilterWorkspace& workspace,
+                  LineSet& lines, std::vector<LineFacts>& facts);
 
 /// Lines of one scale.
 struct FilteredLines {
@@ -77,6 +84,7 @@ struct FilteredLines {
 };
 
 /// Drops the lines that are too faint against the strong ones of the same image, whatever their scale.
-void drop_faint_lines(std::span<const FilteredLines> groups, double noise, const LineFilterOptions& options);
+void drop_faint_lines(std::span<const FilteredLines> groups, double noise, const LineFilterOptions& options,
+                      double width_slack);
 
 }  // namespace lightstripe

@@ -73,19 +73,18 @@ LaserMasks masks_of(const ColourRise& rise, const cv::Mat& plane) {
   return m;
 }
 
-/// A colour's picture in which the line's core is as bright as its rim.
+/// A colour's picture in which the line's core is as bright as the darker one of its rims.
 cv::Mat filled_rise(const ColourRise& rise, const cv::Mat& core) {
-  cv::Mat filled = rise.level.clone();
-  cv::Mat raised;
-  cv::max(filled, cv::Scalar::all(std::round(rise.top)), raised);
-  raised.copyTo(filled, core);
+  cv::Mat filled = rise.level.clone(), closed;
+  cv::morphologyEx(rise.level, closed, cv::MORPH_CLOSE, square(kCoreReach));
+  closed.copyTo(filled, core);
   return filled;
 }
 
 constexpr int kBumpReach = 6;      // px to both sides of a bump, where it must have fallen
 constexpr int kTrackJump = 3;      // px from row to row along one line
 constexpr int kShortestRun = 6;    // rows that a run must have to count
-constexpr int kMostContrast = 40;  // grey levels; more colour does not make it more of a line
+constexpr int kMostContrast = 60;  // grey levels; more colour does not make it more of a line
 
 /// Length times contrast of the runs of rows whose strongest bumps lie one below the other.
 double track_score(const cv::Mat& filled, const cv::Mat& plane, double least) {
