@@ -15,7 +15,7 @@ struct FollowTuning {
   double kept_length = 0.8;
   /// Of the least length: what is shorter is no line at this scale, and leaves its place to other scales. The
   /// exact length is judged later on the measured line.
-  double least_length = 0.6;
+  double least_length = 0.4;
   /// Of the strongest line's height: seeds with less contrast are not tried. The filter of whole lines drops
   /// what is fainter than lines.min_contrast anyway.
   double faintest_seed = 0.05;

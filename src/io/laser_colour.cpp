@@ -16,6 +16,7 @@ namespace {
 constexpr double kTopShare = 2e-4;
 constexpr std::int64_t kTopPixels = 16;
 constexpr int kClipped = 250;   // grey levels; cameras and codecs stop a little short of 255
+constexpr int kWhite = 200;     // grey levels of two planes
 constexpr int kCoreReach = 10;  // px from a coloured rim into a white core, twice
 constexpr int kMargin = 4;      // px around what was found: the foot of the stripe
 
@@ -123,6 +124,16 @@ double track_score(const cv::Mat& filled, const cv::Mat& plane, double least) {
   return score;
 }
 
+/// White light has no colour to tell: there it takes that of the rims on both sides.
+void fill_white(const cv::Mat& white, cv::Mat& level) {
+  if (cv::countNonZero(white) == 0) return;
+  cv::Mat closed = level.clone();
+  closed.setTo(-255, white);
+  cv::morphologyEx(closed, closed, cv::MORPH_CLOSE, square(kCoreReach));
+  closed.setTo(0, white & (closed < 0));
+  closed.copyTo(level, white);
+}
+
 }  // namespace
 
 ColourRise colour_rise(const ColourPlanes& bgr, std::size_t plane) {
@@ -134,6 +145,7 @@ ColourRise colour_rise(const ColourPlanes& bgr, std::size_t plane) {
   const int reach = std::max(15, std::max(difference.cols, difference.rows) / 16);
   cv::blur(difference, around, {2 * reach + 1, 2 * reach + 1});
   rise.level -= around;
+  fill_white((bgr.at(plane) >= kWhite) & (larger >= kWhite), rise.level);
   rise.noise = usual_level(rise.level);
   rise.top = top_level(rise.level);
   return rise;
