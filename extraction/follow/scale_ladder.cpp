@@ -16,6 +16,7 @@ constexpr double kClearOfNoise = 7;    // standard deviations of the strength
 constexpr double kFaintestHeight = 3;  // grey levels, of a stripe's peak
 constexpr double kMostAlong = 0.4;     // of the curvature across: a dot has 1, a line 0
 constexpr double kNoisyAlong = 2.5;    // standard deviations that noise may add to it
+constexpr double kOwnMaximum = 0.5;    // of the largest one: a narrower maximum as high as this is the line's
 constexpr std::size_t kSamples = 16;   // points of a line that are looked at
 
 template <class T>
@@ -130,14 +131,19 @@ template <class T>
 std::optional<ScaledRidge> best_scale(ImagePyramid<T>& pyramid, KernelCache& kernels, double x, double y,
                                       int first, int last) {
   std::array<double, ScaleLadder::kRungs + 2> normalised{};  // with a 0 at both ends
+  double largest = 0;
   int best = -1;
   for (int rung = std::max(first, 0); rung <= std::min(last, ScaleLadder::kRungs - 1); ++rung) {
     const auto k = static_cast<std::size_t>(rung + 1);
     normalised[k] = strength_at(pyramid, kernels, x, y, rung) * std::pow(ScaleLadder::sigma(rung), 1.5);
-    if (normalised[k] > 0 && (best < 0 || normalised[k] > normalised[static_cast<std::size_t>(best + 1)]))
-      best = rung;
+    largest = std::max(largest, normalised[k]);
   }
-  if (best < 0) return std::nullopt;
+  if (largest <= 0) return std::nullopt;
+  // A bright core in a wide glow has two maxima: the line is the narrower one.
+  for (int rung = 0; rung < ScaleLadder::kRungs && best < 0; ++rung) {
+    const auto k = static_cast<std::size_t>(rung + 1);
+    if (normalised[k] >= kOwnMaximum * largest && normalised[k] >= normalised[k + 1]) best = rung;
+  }
   const auto k = static_cast<std::size_t>(best + 1);
   const bool inside = normalised[k - 1] > 0 && normalised[k + 1] > 0;
   const double offset = inside ? peak_offset(normalised[k - 1], normalised[k], normalised[k + 1]) : 0.0;

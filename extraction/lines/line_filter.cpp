@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <cstdio>
-#include <cstdlib>
 
 #include "extraction/follow/bridge.h"
 #include "extraction/kernels/width_rule.h"
@@ -20,8 +18,8 @@ constexpr double kTopNoise = 0.62;
 /// Of the smaller over the larger drop: an edge drops on one side only; a line on a step of its own height
 /// has 0.33.
 constexpr double kLeastFlanks = 0.3;
-/// Of min_length, for lines as bright as the brightest.
-constexpr double kShortest = 0.5;
+/// Of min_length, where the whole evidence is judged as well.
+constexpr double kShortest = 0.5, kLeastEvidence = 0.4;
 
 struct Trial {
   const DerivativeKernels& kernels;
@@ -247,6 +245,13 @@ Reference strong_stripe(std::span<const FilteredLines> groups, const LineFilterO
   return reference;
 }
 
+/// How much speaks for a line: long, bright, with two even flanks, all of it in the laser's colour. Crumbs of
+/// texture and edges lack a little of each. In stripe widths of a perfect line.
+double evidence(const LineFacts& line, double widths, double share) {
+  return widths * std::min(share, 1.0) * line.flanks * (1 - line.odd_share) * line.coloured_share *
+         line.coloured_share;
+}
+
 /// Brightness against the strong lines: weak lines have to be regular and as wide as the strong ones.
 bool is_bright_enough(const DerivativeKernels& kernels, double noise, const LineFilterOptions& options,
                       double width_slack, const LineFacts& line, const Reference& reference) {
@@ -258,19 +263,18 @@ bool is_bright_enough(const DerivativeKernels& kernels, double noise, const Line
     return false;
   const double full_width = std::max(full_width_of(kernels.sigma), 0.8 * reference.width);
   const double widths = line.length / full_width;
-  // Crumbs of texture are short and faint: half as bright has to be four times as long.
-  if (width_slack > 1 && widths * share * share < kShortest * options.min_length) return false;
+  if (width_slack > 1 && evidence(line, widths, share) < kLeastEvidence * options.min_length) return false;
   if (share > options.clear_contrast) return true;
   // Mirror images and gleams are about as faint as this, but seldom as long and as even as the laser's line.
   constexpr double kFaint = 0.15, kEvenFlanks = 0.5;
   if (share < kFaint && (line.length < 3 * options.min_length * full_width || line.flanks < kEvenFlanks ||
-                         line.odd_share > 0.1 || line.coloured_share < 0.8))
+                         line.odd_share > std::min(0.005 * widths, 0.4) || line.coloured_share < 0.8))
     return false;
   // The weaker, the longer: dim edges are short.
   if (line.length * share < options.clear_contrast * options.min_length * full_width) return false;
   const double ratio = line.width / reference.width;
   // Bridges and uneven flanks are rare on a stripe, frequent on stains and edges.
-  const double most_odd = std::min(0.2 + 0.01 * std::max(0.0, widths - options.min_length), 0.5);
+  const double most_odd = std::min(0.2 + 0.03 * std::max(0.0, widths - options.min_length), 0.5);
   return line.odd_share < most_odd && ratio > 0.65 / width_slack && ratio < 1.5 * width_slack;
 }
 
@@ -316,14 +320,12 @@ void filter_lines(ImageView<T> image, const DerivativeKernels& kernels, double n
   std::swap(lines.lines, workspace.kept);
   facts.clear();
   for (const LineRange& r : lines.lines) facts.push_back(facts_of(trial, lines, r));
-  if (getenv("LS_DBG")) for (std::size_t k = 0; k < facts.size(); ++k) { const auto& f = facts[k]; const auto& a = lines.points[lines.lines[k].begin]; const auto& b = lines.points[lines.lines[k].end - 1]; fprintf(stderr, " %s s %.2f (%.0f,%.0f)-(%.0f,%.0f) len %.0f width %.1f int %.1f str %.2f bridged %.2f odd %.2f flanks %.2f col %.2f\n", is_stripe_like(trial, f) ? "ok  " : "DROP", kernels.sigma, a.x, a.y, b.x, b.y, f.length, f.width, f.intensity, f.mean_strength, f.bridged_share, f.odd_share, f.flanks, f.coloured_share); }
   keep_if(lines, facts, [&](const LineFacts& line) { return is_stripe_like(trial, line); });
 }
 
 void drop_faint_lines(std::span<const FilteredLines> groups, double noise, const LineFilterOptions& options,
                       double width_slack) {
   const Reference reference = strong_stripe(groups, options);
-  if (getenv("LS_DBG")) for (auto& g : groups) for (auto& f : *g.facts) if (!is_bright_enough(*g.kernels, noise, options, width_slack, f, reference)) fprintf(stderr, "  FAINT s %.2f len %.0f int %.1f of %.1f\n", g.kernels->sigma, f.length, f.intensity, reference.intensity);
   for (const FilteredLines& group : groups)
     keep_if(*group.lines, *group.facts, [&](const LineFacts& line) {
       return is_bright_enough(*group.kernels, noise, options, width_slack, line, reference);

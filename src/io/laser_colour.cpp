@@ -15,10 +15,11 @@ namespace {
 // A line of light covers at least this share of a picture; fewer bright pixels are noise or dead ones.
 constexpr double kTopShare = 2e-4;
 constexpr std::int64_t kTopPixels = 16;
-constexpr int kClipped = 250;   // grey levels; cameras and codecs stop a little short of 255
-constexpr int kWhite = 200;     // grey levels of two planes
-constexpr int kCoreReach = 10;  // px from a coloured rim into a white core, twice
-constexpr int kMargin = 4;      // px around what was found: the foot of the stripe
+constexpr int kClipped = 250;     // grey levels; cameras and codecs stop a little short of 255
+constexpr int kDarkestCast = 15;  // grey levels by which the background may be of the opposite colour
+constexpr int kWhite = 200;       // grey levels of two planes
+constexpr int kCoreReach = 10;    // px from a coloured rim into a white core, twice
+constexpr int kMargin = 4;        // px around what was found: the foot of the stripe
 
 cv::Mat square(int reach) {
   return cv::getStructuringElement(cv::MORPH_RECT, {2 * reach + 1, 2 * reach + 1});
@@ -140,6 +141,8 @@ ColourRise colour_rise(const ColourPlanes& bgr, std::size_t plane) {
   cv::Mat larger, difference, around;
   cv::max(bgr.at((plane + 1) % 3), bgr.at((plane + 2) % 3), larger);
   cv::subtract(bgr.at(plane), larger, difference, cv::noArray(), CV_16S);
+  // Beside a white core in red bloom the blue would rise as well, from far below to nought.
+  cv::max(difference, cv::Scalar::all(-kDarkestCast), difference);
   ColourRise rise;
   cv::blur(difference, rise.level, {3, 3});
   const int reach = std::max(15, std::max(difference.cols, difference.rows) / 16);
