@@ -2,15 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "simulate/simulate.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-
 #include <mutex>
 
-#include "core/task_order.h"
 #include "io/images.h"
 #include "io/rig_file.h"
+#include "parallel/parallel.h"
 #include "simulate/image_plan.h"
 #include "simulate/render.h"
 #include "simulate/session_output.h"
@@ -21,6 +17,7 @@ namespace lightstripe {
 namespace {
 
 constexpr std::uint64_t kBlobStream = 0x626c6f62;  // apart from the same image's noise
+constexpr std::uint64_t kSpeckleStream = 0x73706563;
 
 /// A name as a number (FNV-1a), so that a picture's noise depends on what it is called, not on how many came
 /// before.
@@ -30,34 +27,44 @@ std::uint64_t stream_of(const std::string& name) {
   return hash;
 }
 
-/// Calls `work(i)` for each i < count on `threads` threads (0 = all).
-template <class Work>
-void in_parallel(int threads, std::size_t count, const Work& work) {
-  const auto run_part = [&](const tbb::blocked_range<std::size_t>& part) {
-    for (std::size_t i = part.begin(); i < part.end(); ++i) work(i);
-  };
-  tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
-  before_tasks();
-  arena.execute([&] {
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 1), Task(run_part),
-                      tbb::simple_partitioner());
-  });
-  after_tasks();
-}
-
 /// What all images need and none changes.
 struct Studio {
   const Scene& scene;
   const ImagePlan& plan;
   std::vector<RayGrid> rays;  ///< one a sensor
-  std::vector<Image<float>>
-      stills;  ///< light of the scan's frames, one a sensor, where all frames are the same
+  std::vector<Light> stills;  ///< of the scan's frames, one a sensor, where all frames are the same
   Rigid3 rig_from_world;
 };
 
-Image<float> light_of(const Studio& studio, const PlannedImage& image) {
+Light light_of(const Studio& studio, const PlannedImage& image) {
   if (image.frame >= 0 && !studio.stills.empty()) return studio.stills[image.sensor];
-  return render(studio.plan.worlds[image.world], image.view, studio.rays[image.sensor], studio.scene.imaging);
+  return render_light(studio.plan.worlds[image.world], image.view, studio.rays[image.sensor],
+                      studio.scene.imaging);
+}
+
+/// Gives the laser's light its grain.
+void add_grain(const Scene& scene, std::uint64_t stream, Light& light) {
+  if (light.laser.empty()) return;
+  const Image<float> even = light.laser;
+  add_speckle(even, scene.imaging.speckle, static_cast<std::uint64_t>(scene.seed), stream ^ kSpeckleStream,
+              light.laser);
+  for (std::size_t i = 0; i < even.pixels.size(); ++i)
+    light.total.pixels[i] += light.laser.pixels[i] - even.pixels[i];
+}
+
+void write_exposure(const Scene& scene, const Light& light, std::uint64_t stream,
+                    const std::filesystem::path& file) {
+  const auto seed = static_cast<std::uint64_t>(scene.seed);
+  const Imaging& imaging = scene.imaging;
+  switch (imaging.colour.pictures) {
+    case Pictures::kGrey:
+      return write_image(file, expose(light.total, imaging, seed, stream));
+    case Pictures::kRgb:
+      return write_rgb_image(file, expose_rgb(light.total, light.laser, imaging, seed, stream),
+                             light.total.width, light.total.height);
+    case Pictures::kBayer:
+      return write_image(file, expose_bayer(light.total, light.laser, imaging, seed, stream));
+  }
 }
 
 /// Renders one image, writes it, and returns its rows of stripes.csv.
@@ -65,12 +72,14 @@ std::string make_image(const Studio& studio, const PlannedImage& image, const st
   const Scene& scene = studio.scene;
   const auto seed = static_cast<std::uint64_t>(scene.seed);
   const std::uint64_t stream = stream_of(image.file);
-  Image<float> light = light_of(studio, image);
+  Light light = light_of(studio, image);
+  add_grain(scene, stream, light);
   std::vector<Blob> blobs;
   if (image.frame >= 0)
-    blobs = draw_blobs(scene.reflections, light.width, light.height, Random(seed, stream ^ kBlobStream));
-  add_blobs(light, blobs, scene.reflections);
-  write_image(folder / image.file, expose(light, scene.imaging, seed, stream));
+    blobs = draw_blobs(scene.reflections, light.total.width, light.total.height,
+                       Random(seed, stream ^ kBlobStream));
+  add_blobs(light.total, blobs, scene.reflections);
+  write_exposure(scene, light, stream, folder / image.file);
   if (image.view.laser_power == 0) return "";
   const auto points = trace_stripe(studio.plan.worlds[image.world], image.view, scene.imaging);
   return stripe_rows(image.file, image.view.sensor->name, image.frame, points, studio.rig_from_world, blobs,
@@ -80,12 +89,12 @@ std::string make_image(const Studio& studio, const PlannedImage& image, const st
 Studio prepare(const Scene& scene, const ImagePlan& plan, const Rig& rig, int threads) {
   Studio studio{
       scene, plan, std::vector<RayGrid>(plan.sensors.size()), {}, rig_from_world(rig, plan.sensors)};
-  in_parallel(threads, plan.sensors.size(), [&](std::size_t i) {
+  parallel_for(plan.sensors.size(), threads, [&](std::size_t i) {
     studio.rays[i] = make_ray_grid(plan.sensors[i], blur_margin(scene.imaging) + 1);
   });
   if (scene.scan.frames == 0 || !plan.still_scan) return studio;
-  std::vector<Image<float>> stills(plan.sensors.size());
-  in_parallel(threads, plan.images.size(), [&](std::size_t i) {
+  std::vector<Light> stills(plan.sensors.size());
+  parallel_for(plan.images.size(), threads, [&](std::size_t i) {
     const PlannedImage& image = plan.images[i];
     if (image.frame == 0) stills[image.sensor] = light_of(studio, image);
   });
@@ -105,7 +114,7 @@ SimulationSummary simulate_scene(const Scene& scene, const std::filesystem::path
   std::vector<std::string> stripes(plan.images.size());
   std::mutex reporting;
   int done = 0;
-  in_parallel(threads, plan.images.size(), [&](std::size_t i) {
+  parallel_for(plan.images.size(), threads, [&](std::size_t i) {
     stripes[i] = make_image(studio, plan.images[i], output_folder);
     const std::lock_guard<std::mutex> lock(reporting);
     if (progress) progress(++done, static_cast<int>(plan.images.size()));
