@@ -16,6 +16,8 @@ struct FollowTuning {
   /// Of the least length: what is shorter is no line at this scale, and leaves its place to other scales. The
   /// exact length is judged later on the measured line.
   double least_length = 0.4;
+  /// Of a line's points: where so many have another line within 1.5 sigma, it is that line seen once more.
+  double most_taken = 0.5;
   /// Of the strongest line's height: seeds with less contrast are not tried. The filter of whole lines drops
   /// what is fainter than lines.min_contrast anyway.
   double faintest_seed = 0.05;

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "extraction/kernels/width_rule.h"
+#include "extraction/lines/line_measure.h"
 
 namespace lightstripe {
 namespace {
@@ -75,6 +76,7 @@ class LineFinder {
   std::optional<Followed> at_own_scale(const Followed& line, int x, int y);
   double length(const Followed& line) const { return static_cast<double>(line.range.size()); }
   double height(const Followed& line) const;
+  bool runs_beside_another(const Followed& line) const;
   void keep_or_reject(const Followed& line, int level);
   void try_seed(const ScaleSeed& seed);
 
@@ -179,10 +181,34 @@ double LineFinder<T>::height(const Followed& line) const {
   return sum / length(line) / g.kernels->matched_strength();
 }
 
+/// In the glow of a line that is already found broad kernels see it once more: most of what they look at
+/// belongs to the other line.
+template <class T>
+bool LineFinder<T>::runs_beside_another(const Followed& line) const {
+  const ScaleGroup& g = groups_.all[line.group];
+  const std::size_t step = sample_step(line.range);
+  std::size_t looked_at = 0, taken = 0;
+  for (std::size_t i = line.range.begin; i < line.range.end; i += step) {
+    const StripePoint& p = g.lines.points[i];
+    ++looked_at;
+    for (const double aside : {-1.5, -1.0, -0.5, 0.0, 0.5, 1.0, 1.5}) {
+      const auto x = static_cast<int>(std::lround(p.x + aside * g.kernels->sigma * p.normal_x)),
+                 y = static_cast<int>(std::lround(p.y + aside * g.kernels->sigma * p.normal_y));
+      if (!search_.image.contains(x, y)) continue;
+      const std::uint16_t label = following_.mask(x, y);
+      if (label == ExclusionMask::kFree || label == ExclusionMask::kDead || label >= line.first_label)
+        continue;
+      ++taken;
+      break;
+    }
+  }
+  return static_cast<double>(taken) > search_.tuning.most_taken * static_cast<double>(looked_at);
+}
+
 template <class T>
 void LineFinder<T>::keep_or_reject(const Followed& line, int level) {
   const double least = search_.least_widths * full_width_of(groups_.all[line.group].kernels->sigma);
-  if (length(line) >= search_.tuning.least_length * least) {
+  if (length(line) >= search_.tuning.least_length * least && !runs_beside_another(line)) {
     ++lines_;
     strongest_ = std::max(strongest_, height(line) * std::min(1.0, length(line) / (3 * least)));
     return;

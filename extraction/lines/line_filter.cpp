@@ -3,6 +3,7 @@
 #include "extraction/lines/line_filter.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -19,7 +20,7 @@ constexpr double kTopNoise = 0.62;
 /// has 0.33.
 constexpr double kLeastFlanks = 0.3;
 /// Of min_length, where the whole evidence is judged as well.
-constexpr double kShortest = 0.5, kLeastEvidence = 0.4;
+constexpr double kShortest = 0.5, kColouredEvidence = 0.4, kGreyEvidence = 0.6;
 
 struct Trial {
   const DerivativeKernels& kernels;
@@ -28,6 +29,7 @@ struct Trial {
   LineFilterWorkspace& w;
   double full_width;  ///< px, of the stripes of this image
   double width_slack = 1;
+  bool colour_known = false;
   double profile_noise = 0;  ///< grey levels, of the line on trial: less where its profiles were averaged
 
   /// Median of the contrasts at i - 1, i, i + 1 inside the range.
@@ -202,6 +204,7 @@ LineFacts facts_of(Trial& t, const LineSet& lines, const LineRange& r) {
   facts.bridged_share = static_cast<double>(bridged) / count;
   facts.odd_share = static_cast<double>(odd) / count;
   facts.coloured_share = static_cast<double>(coloured) / count;
+  facts.colour_known = t.colour_known;
   facts.flanks = flank_ratio(t, lines, r);
   facts.width = median_width(t, lines, r);
   facts.intensity = typical_intensity(t, lines, r);
@@ -223,8 +226,27 @@ bool is_stripe_like(const Trial& t, const LineFacts& line) {
 /// What a strong stripe of this image looks like.
 struct Reference {
   double intensity = 0;  ///< of the brightest line, short ones counting less
-  double width = 0;      ///< px, mean over the lines at least half as bright, weighted by their length
+  double width = 0;      ///< px, of the lines at least half as bright
 };
+
+/// Median of the widths of the lines that are at least so bright, weighted by their length; px.
+double commonest_width(std::span<const FilteredLines> groups, double least_intensity) {
+  std::array<double, 64> lengths{};  // by the width in eighths of an octave
+  double total = 0;
+  for (const FilteredLines& group : groups)
+    for (const LineFacts& line : *group.facts) {
+      if (line.intensity < least_intensity) continue;
+      const double index = std::clamp(8 * std::log2(std::max(line.width, 1.0)), 0.0, 63.0);
+      lengths[static_cast<std::size_t>(index)] += line.length;
+      total += line.length;
+    }
+  double below = 0;
+  for (std::size_t i = 0; i < lengths.size(); ++i) {
+    below += lengths[i];
+    if (total > 0 && below >= 0.5 * total) return std::exp2((static_cast<double>(i) + 0.5) / 8);
+  }
+  return 0;
+}
 
 Reference strong_stripe(std::span<const FilteredLines> groups, const LineFilterOptions& options) {
   Reference reference;
@@ -234,14 +256,7 @@ Reference strong_stripe(std::span<const FilteredLines> groups, const LineFilterO
       reference.intensity =
           std::max(reference.intensity, line.intensity * std::min(1.0, line.length / full_length));
   }
-  double sum = 0, weights = 0;
-  for (const FilteredLines& group : groups)
-    for (const LineFacts& line : *group.facts) {
-      if (line.intensity < 0.5 * reference.intensity) continue;
-      sum += line.width * line.length;
-      weights += line.length;
-    }
-  if (weights > 0) reference.width = sum / weights;
+  reference.width = commonest_width(groups, 0.5 * reference.intensity);
   return reference;
 }
 
@@ -263,7 +278,9 @@ bool is_bright_enough(const DerivativeKernels& kernels, double noise, const Line
     return false;
   const double full_width = std::max(full_width_of(kernels.sigma), 0.8 * reference.width);
   const double widths = line.length / full_width;
-  if (width_slack > 1 && evidence(line, widths, share) < kLeastEvidence * options.min_length) return false;
+  if (width_slack > 1 && evidence(line, widths, share) <
+                             (line.colour_known ? kColouredEvidence : kGreyEvidence) * options.min_length)
+    return false;
   if (share > options.clear_contrast) return true;
   // Mirror images and gleams are about as faint as this, but seldom as long and as even as the laser's line.
   constexpr double kFaint = 0.15, kEvenFlanks = 0.5;
@@ -309,7 +326,8 @@ template <class T>
 void filter_lines(ImageView<T> image, const DerivativeKernels& kernels, double noise,
                   const LineFilterOptions& options, double width_slack, LineFilterWorkspace& workspace,
                   LineSet& lines, std::vector<LineFacts>& facts) {
-  Trial trial{kernels, noise, options, workspace, full_width_of(kernels.sigma), width_slack};
+  Trial trial{
+      kernels, noise, options, workspace, full_width_of(kernels.sigma), width_slack, image.where != nullptr};
   measure_points(image, kernels, noise, lines, workspace.measure);
   look_at_colours(image, lines, workspace.colour);
   workspace.kept.clear();

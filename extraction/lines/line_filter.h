@@ -31,6 +31,7 @@ struct LineFacts {
   double bridged_share = 0;   ///< of the points
   double odd_share = 0;       ///< bridged or asymmetric
   double flanks = 1;          ///< median of the smaller over the larger drop to both sides; an edge has 0
+  bool colour_known = false;  ///< the picture tells where the laser's colour is
   double coloured_share = 1;  ///< of the points, where the laser's colour is
 };
 

@@ -18,8 +18,9 @@ constexpr std::int64_t kTopPixels = 16;
 constexpr int kClipped = 250;     // grey levels; cameras and codecs stop a little short of 255
 constexpr int kDarkestCast = 15;  // grey levels by which the background may be of the opposite colour
 constexpr int kWhite = 200;       // grey levels of two planes
-constexpr int kCoreReach = 10;    // px from a coloured rim into a white core, twice
-constexpr int kMargin = 4;        // px around what was found: the foot of the stripe
+constexpr int kCoreReach = 10;    // px from a coloured rim into a white core, kCoreSteps times
+constexpr int kCoreSteps = 3;
+constexpr int kMargin = 4;  // px around what was found: the foot of the stripe
 
 cv::Mat square(int reach) {
   return cv::getStructuringElement(cv::MORPH_RECT, {2 * reach + 1, 2 * reach + 1});
@@ -70,8 +71,10 @@ LaserMasks masks_of(const ColourRise& rise, const cv::Mat& plane) {
   cv::Mat reached;
   cv::dilate(m.sure, reached, square(kCoreReach));
   m.core = clipped & reached;
-  cv::dilate(m.core, reached, square(kCoreReach));
-  m.core |= clipped & reached;
+  for (int step = 1; step < kCoreSteps; ++step) {
+    cv::dilate(m.core, reached, square(kCoreReach));
+    m.core = clipped & reached;
+  }
   return m;
 }
 

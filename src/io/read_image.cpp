@@ -128,9 +128,9 @@ GreyImage read_grey_image(const std::filesystem::path& path, Channel channel, Ch
 RgbImage read_rgb_image(const std::filesystem::path& path) {
   const std::string bytes = read_file(path), name = path.string();
   if (bytes.empty()) throw Error(name, "is empty", kExportAgain);
-  const ImageHeader header = inspect_image(bytes);
+  ImageHeader header = inspect_image(bytes);
   check_header(header, name);
-  cv::Mat picture = decoded(bytes, name);
+  cv::Mat picture = decoded(bytes, name, header);
   if (picture.depth() == CV_16U) picture = scaled_to_8_bits(picture, header);
   cv::cvtColor(picture, picture, picture.channels() == 1 ? cv::COLOR_GRAY2RGB : cv::COLOR_BGR2RGB);
   const auto* first = picture.ptr<std::uint8_t>();
