@@ -92,7 +92,7 @@ void find_lines(const Run<T>& run) {
   if (w.kernels.sigma != run.result.sigma) w.kernels = make_derivative_kernels(run.result.sigma);
   const RidgeLimits limits = ridge_limits(w.kernels, run.facts, run.parsed, run.result);
   w.groups.count = 0;
-  LineSet& lines = w.groups.add(w.kernels, limits).lines;
+  LineSet& lines = w.groups.add(w.kernels).lines;
   switch (run.options.method) {
     case ExtractionMethod::kDirectionGuided:
       follow_lines(run.image, w.kernels, limits, follow_rule(run), w.direction_guided<T>(), lines);
@@ -131,9 +131,11 @@ void find_lines_at_own_scale(const Run<T>& run) {
                                  run.options.lines.min_length,
                                  run.options.stop_after,
                                  {}};
-  const LimitsMaker limits{&run, [](const void* given, const DerivativeKernels& kernels) {
+  const LimitsMaker limits{&run, [](const void* given, const DerivativeKernels& kernels, double noise) {
                              const auto& r = *static_cast<const Run<T>*>(given);
-                             return ridge_limits(kernels, r.facts, r.parsed, r.result);
+                             ImageFacts facts = r.facts;
+                             facts.noise.seen = noise;
+                             return ridge_limits(kernels, facts, r.parsed, r.result);
                            }};
   follow_lines_at_own_scale(search, limits, w.kernel_cache, w.direction_guided<T>(), w.own_scale<T>(),
                             w.groups);

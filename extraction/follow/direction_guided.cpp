@@ -112,7 +112,7 @@ bool follow_line_at(const RidgeFinder<T>& finder, int x, int y, MaskLabels& labe
   if (!start) return false;
   const auto sx = static_cast<int>(std::lround(start->x)), sy = static_cast<int>(std::lround(start->y));
   if (!finder.image.contains(sx, sy)) return false;
-  const std::uint16_t label = workspace.mask(sx, sy);
+  const std::uint16_t label = workspace.mask(finder.in_mask(sx), finder.in_mask(sy));
   if (label != ExclusionMask::kFree && label != ExclusionMask::kDead) return false;
   const std::size_t before = lines.lines.size();
   follow_both_ways(finder, *start, labels, workspace, lines);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <span>
 
+#include "extraction/follow/direction_guided_between.h"
 #include "extraction/kernels/width_rule.h"
 #include "extraction/lines/line_measure.h"
 
@@ -72,12 +73,18 @@ class LineFinder {
   std::uint8_t& tried(int level, int x, int y);
   std::size_t group_for(double sigma, double tolerance);
   std::optional<Followed> follow(std::size_t group, int x, int y);
+  void to_full_image(ScaleGroup& group);
   void take_back(const Followed& line);
+  void block(const Followed& line, double sigmas);
+  std::uint8_t& blocked(int x, int y) {
+    const auto columns = static_cast<std::size_t>(search_.image.width / 4 + 1);
+    return w_.blocked[static_cast<std::size_t>(y / 4) * columns + static_cast<std::size_t>(x / 4)];
+  }
   std::optional<Followed> at_own_scale(const Followed& line, int x, int y);
   double length(const Followed& line) const { return static_cast<double>(line.range.size()); }
   double height(const Followed& line) const;
   bool runs_beside_another(const Followed& line) const;
-  void keep_or_reject(const Followed& line, int level);
+  void keep_or_reject(const Followed& line);
   void try_seed(const ScaleSeed& seed);
 
   const OwnScaleSearch<T>& search_;
@@ -100,21 +107,24 @@ void LineFinder<T>::prepare() {
     collect_level(search_, level, following_.seeds, w_);
     const ImageView<T> image = w_.pyramid.levels[static_cast<std::size_t>(level)];
     w_.tried[static_cast<std::size_t>(level)].assign(
-        static_cast<std::size_t>(image.width / 2 + 1) * static_cast<std::size_t>(image.height / 2 + 1), 0);
+        static_cast<std::size_t>(image.width / 4 + 1) * static_cast<std::size_t>(image.height / 4 + 1), 0);
   }
   sort_seeds(w_);
+  w_.blocked.assign(static_cast<std::size_t>(search_.image.width / 4 + 1) *
+                        static_cast<std::size_t>(search_.image.height / 4 + 1),
+                    0);
   following_.mask.reset(search_.image.width, search_.image.height, 1);
   groups_.count = 0;
 }
 
-/// The cell of 2 x 2 pixels of a level.
+/// The cell of 4 x 4 pixels of a level.
 template <class T>
 std::uint8_t& LineFinder<T>::tried(int level, int x, int y) {
   const auto k = static_cast<std::size_t>(level);
   const ImageView<T> image = w_.pyramid.levels[k];
-  const int column = std::clamp(x >> (level + 1), 0, image.width / 2),
-            row = std::clamp(y >> (level + 1), 0, image.height / 2);
-  return w_.tried[k][static_cast<std::size_t>(row) * static_cast<std::size_t>(image.width / 2 + 1) +
+  const int column = std::clamp(x >> (level + 2), 0, image.width / 4),
+            row = std::clamp(y >> (level + 2), 0, image.height / 4);
+  return w_.tried[k][static_cast<std::size_t>(row) * static_cast<std::size_t>(image.width / 4 + 1) +
                      static_cast<std::size_t>(column)];
 }
 
@@ -130,18 +140,35 @@ std::size_t LineFinder<T>::group_for(double sigma, double tolerance) {
   }
   if (best < groups_.count) return best;
   const DerivativeKernels& kernels = kernels_.nearest(sigma);
-  groups_.add(kernels, limits_(kernels));
+  ScaleGroup& group = groups_.add(kernels);
+  while (group.level + 1 < w_.pyramid.count && sigma >= search_.tuning.binned_sigma * (2 << group.level))
+    ++group.level;
+  group.binned_kernels = &kernels_.nearest(kernels.sigma / (1 << group.level));
+  group.limits = limits_(*group.binned_kernels, w_.pyramid.noise[static_cast<std::size_t>(group.level)]);
   return best;
 }
 
 template <class T>
 std::optional<typename LineFinder<T>::Followed> LineFinder<T>::follow(std::size_t group, int x, int y) {
   ScaleGroup& g = groups_.all[group];
-  const RidgeFinder<T> finder{search_.image, *g.kernels, g.limits, following_.border_window};
+  const RidgeFinder<T> finder{w_.pyramid.levels[static_cast<std::size_t>(g.level)], *g.binned_kernels,
+                              g.limits, following_.border_window, g.level};
   Followed line{group, {}, following_.mask.checkpoint(), static_cast<std::uint16_t>(labels_.current + 1)};
-  if (!follow_line_at(finder, x, y, labels_, following_, g.lines)) return std::nullopt;
+  if (!follow_line_at(finder, x >> g.level, y >> g.level, labels_, following_, g.lines)) return std::nullopt;
+  if (g.level > 0) to_full_image(g);
   line.range = g.lines.lines.back();
   return line;
+}
+
+/// The last line of a group, from its level's pixels to the image's own.
+template <class T>
+void LineFinder<T>::to_full_image(ScaleGroup& group) {
+  LineRange& range = group.lines.lines.back();
+  std::vector<StripePoint>& points = group.lines.points;
+  w_.binned_points.assign(points.begin() + static_cast<std::ptrdiff_t>(range.begin), points.end());
+  points.resize(range.begin);
+  append_in_full_image(w_.binned_points, group.level, points);
+  range.end = points.size();
 }
 
 /// The line goes, and its place is free again.
@@ -161,11 +188,13 @@ std::optional<typename LineFinder<T>::Followed> LineFinder<T>::at_own_scale(cons
   const std::span<const StripePoint> points(lines.points.data() + line.range.begin, line.range.size());
   const double used = groups_.all[line.group].kernels->sigma;
   const double own = scale_of_line(w_.pyramid, kernels_, points, used);
-  if (std::abs(std::log2(own / used)) <= search_.tuning.refollow_scale) return line;
+  const bool first_of_its_scale = lines.lines.size() == 1;
+  const double tolerance = first_of_its_scale ? search_.tuning.first_scale : search_.tuning.refollow_scale;
+  if (std::abs(std::log2(own / used)) <= tolerance) return line;
   const StripePoint middle = points[points.size() / 2];
   const double least = search_.tuning.kept_length * length(line);
   take_back(line);
-  const std::size_t group = group_for(own, 0.5 * search_.tuning.shared_scale);
+  const std::size_t group = group_for(own, 0.5 * tolerance);
   auto again =
       follow(group, static_cast<int>(std::lround(middle.x)), static_cast<int>(std::lround(middle.y)));
   if (again && length(*again) >= least) return again;
@@ -206,18 +235,34 @@ bool LineFinder<T>::runs_beside_another(const Followed& line) const {
 }
 
 template <class T>
-void LineFinder<T>::keep_or_reject(const Followed& line, int level) {
+void LineFinder<T>::keep_or_reject(const Followed& line) {
   const double least = search_.least_widths * full_width_of(groups_.all[line.group].kernels->sigma);
   if (length(line) >= search_.tuning.least_length * least && !runs_beside_another(line)) {
     ++lines_;
+    block(line, search_.tuning.blocked_by_line);
     strongest_ = std::max(strongest_, height(line) * std::min(1.0, length(line) / (3 * least)));
     return;
   }
-  futile_ += length(line);
-  const LineSet& lines = groups_.all[line.group].lines;
-  for (std::size_t i = line.range.begin; i < line.range.end; ++i)
-    tried(level, static_cast<int>(lines.points[i].x), static_cast<int>(lines.points[i].y)) = 1;
+  futile_ += length(line) / groups_.all[line.group].kernels->sigma;
+  block(line, search_.tuning.blocked_by_rejected);
   take_back(line);
+}
+
+/// No line begins within so many sigma of this one any more, where its flanks would be followed over and
+/// over.
+template <class T>
+void LineFinder<T>::block(const Followed& line, double sigmas) {
+  const ScaleGroup& g = groups_.all[line.group];
+  const double reach = sigmas * g.kernels->sigma;
+  const std::size_t step = 2;
+  for (std::size_t i = line.range.begin; i < line.range.end; i += step) {
+    const StripePoint& p = g.lines.points[i];
+    for (double aside = -reach; aside <= reach; aside += 3) {
+      const auto x = static_cast<int>(std::lround(p.x + aside * p.normal_x)),
+                 y = static_cast<int>(std::lround(p.y + aside * p.normal_y));
+      if (search_.image.contains(x, y)) blocked(x, y) = 1;
+    }
+  }
 }
 
 template <class T>
@@ -228,14 +273,14 @@ void LineFinder<T>::try_seed(const ScaleSeed& seed) {
   const std::uint16_t label = following_.mask(seed.x, seed.y);
   if (label != ExclusionMask::kFree && label != ExclusionMask::kDead) return;
   std::uint8_t& cell = tried(seed.level, seed.x, seed.y);
-  if (cell != 0) return;
+  if (cell != 0 || blocked(seed.x, seed.y) != 0) return;
   cell = 1;
   const RungRange rungs = rungs_of(seed.level);
   const auto ridge = best_scale(w_.pyramid, kernels_, seed.x, seed.y, rungs.first, rungs.last);
   if (!ridge) return;
   auto line = follow(group_for(ridge->sigma, search_.tuning.shared_scale), seed.x, seed.y);
   if (line) line = at_own_scale(*line, seed.x, seed.y);
-  if (line) keep_or_reject(*line, seed.level);
+  if (line) keep_or_reject(*line);
 }
 
 template <class T>
@@ -253,11 +298,11 @@ void LineFinder<T>::run() {
 
 }  // namespace
 
-ScaleGroup& ScaleGroups::add(const DerivativeKernels& kernels, const RidgeLimits& limits) {
+ScaleGroup& ScaleGroups::add(const DerivativeKernels& kernels) {
   if (count == all.size()) all.emplace_back();
   ScaleGroup& group = all[count++];
-  group.kernels = &kernels;
-  group.limits = limits;
+  group.kernels = group.binned_kernels = &kernels;
+  group.level = 0;
   group.lines.clear();
   return group;
 }

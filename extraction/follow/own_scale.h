@@ -17,7 +17,9 @@ namespace lightstripe {
 
 /// Lines that are followed at one scale.
 struct ScaleGroup {
-  const DerivativeKernels* kernels = nullptr;
+  const DerivativeKernels* kernels = nullptr;         ///< of the lines' scale in the image's own pixels
+  const DerivativeKernels* binned_kernels = nullptr;  ///< the same in those of the pyramid's level
+  int level = 0;                                      ///< of the pyramid, in which they are followed
   RidgeLimits limits;
   LineSet lines;
 };
@@ -27,7 +29,7 @@ struct ScaleGroups {
   std::vector<ScaleGroup> all;
   std::size_t count = 0;
 
-  ScaleGroup& add(const DerivativeKernels& kernels, const RidgeLimits& limits);
+  ScaleGroup& add(const DerivativeKernels& kernels);
   std::span<ScaleGroup> used() { return {all.data(), count}; }
 };
 
@@ -44,6 +46,8 @@ struct OwnScaleWorkspace {
   std::vector<ScaleSeed> found, seeds;
   /// One a level: cells in which no line begins.
   std::array<std::vector<std::uint8_t>, ImagePyramid<T>::kMostLevels> tried;
+  std::vector<std::uint8_t> blocked;  ///< cells of 4 x 4 pixels beside lines that were followed
+  std::vector<StripePoint> binned_points;
 };
 
 /// What is asked of the lines, and how the image is.
@@ -60,8 +64,11 @@ struct OwnScaleSearch {
 /// Makes the limits for the kernels of one scale.
 struct LimitsMaker {
   const void* facts;
-  RidgeLimits (*make)(const void* facts, const DerivativeKernels& kernels);
-  RidgeLimits operator()(const DerivativeKernels& kernels) const { return make(facts, kernels); }
+  RidgeLimits (*make)(const void* facts, const DerivativeKernels& kernels, double noise);
+  /// `noise`: as seen in the level of the pyramid, grey levels.
+  RidgeLimits operator()(const DerivativeKernels& kernels, double noise) const {
+    return make(facts, kernels, noise);
+  }
 };
 
 /// Appends the lines of `search.image` to `groups`. Where two scales claim one place, the line with the
