@@ -76,13 +76,14 @@ void filter_groups(const Run<T>& run, double width_slack) {
   ExtractionWorkspace& w = run.w;
   w.facts.resize(std::max(w.facts.size(), w.groups.count));
   w.filtered.clear();
+  w.tests.edges = {};
   for (std::size_t g = 0; g < w.groups.count; ++g) {
     ScaleGroup& group = w.groups.all[g];
     filter_lines(run.image, *group.kernels, run.facts.noise.seen, run.options.lines, width_slack, w.tests,
                  group.lines, w.facts[g]);
     w.filtered.push_back({group.kernels, &group.lines, &w.facts[g]});
   }
-  drop_faint_lines(w.filtered, run.facts.noise.seen, run.options.lines, width_slack);
+  drop_faint_lines(w.filtered, run.facts.noise.seen, run.options.lines, width_slack, w.tests.edges);
 }
 
 /// All lines at the one scale `result.sigma`.

@@ -13,6 +13,8 @@ struct FollowTuning {
   double refollow_scale = 0.4;
   /// Octaves: the same for the first line of a scale, which decides it for those that come after.
   double first_scale = 0.13;
+  /// Octaves: no line is followed again farther off than this from the scale of its seed.
+  double farthest_scale = 0.75;
   /// Of the length before: a line followed again must keep so much, else the first try stands.
   double kept_length = 0.8;
   /// Of the least length: what is shorter is no line at this scale, and leaves its place to other scales. The

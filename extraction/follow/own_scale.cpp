@@ -187,7 +187,9 @@ std::optional<typename LineFinder<T>::Followed> LineFinder<T>::at_own_scale(cons
   const LineSet& lines = groups_.all[line.group].lines;
   const std::span<const StripePoint> points(lines.points.data() + line.range.begin, line.range.size());
   const double used = groups_.all[line.group].kernels->sigma;
-  const double own = scale_of_line(w_.pyramid, kernels_, points, used);
+  const double farthest = std::exp2(search_.tuning.farthest_scale);
+  const double own =
+      std::clamp(scale_of_line(w_.pyramid, kernels_, points, used), used / farthest, used * farthest);
   const bool first_of_its_scale = lines.lines.size() == 1;
   const double tolerance = first_of_its_scale ? search_.tuning.first_scale : search_.tuning.refollow_scale;
   if (std::abs(std::log2(own / used)) <= tolerance) return line;

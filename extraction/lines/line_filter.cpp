@@ -19,6 +19,8 @@ constexpr double kTopNoise = 0.62;
 /// Of the smaller over the larger drop: an edge drops on one side only; a line on a step of its own height
 /// has 0.33.
 constexpr double kLeastFlanks = 0.3;
+/// Of the mean height of a crowd of edges.
+constexpr double kOverEdges = 1.2;
 /// Of min_length, where the whole evidence is judged as well.
 constexpr double kShortest = 0.5, kColouredEvidence = 0.4, kGreyEvidence = 0.6;
 
@@ -223,6 +225,19 @@ bool is_stripe_like(const Trial& t, const LineFacts& line) {
   return ratio < t.width_slack * most && 1.0 / ratio < 1.5 * t.width_slack * most;
 }
 
+/// A column (row) of the sensor that is defective: exactly straight, exactly on the pixels, and narrower than
+/// any lens draws a line.
+bool is_hot_column(const LineSet& lines, const LineRange& r, const LineFacts& facts) {
+  constexpr double kWidth = 1.9, kOnPixel = 0.1;  // px
+  if (facts.width > kWidth) return false;
+  const StripePoint& first = lines.points[r.begin];
+  const bool column = std::abs(first.normal_x) > std::abs(first.normal_y);
+  const double at = std::round(column ? first.x : first.y);
+  for (std::size_t i = r.begin; i < r.end; i += sample_step(r))
+    if (std::abs((column ? lines.points[i].x : lines.points[i].y) - at) > kOnPixel) return false;
+  return true;
+}
+
 /// What a strong stripe of this image looks like.
 struct Reference {
   double intensity = 0;  ///< of the brightest line, short ones counting less
@@ -263,7 +278,7 @@ Reference strong_stripe(std::span<const FilteredLines> groups, const LineFilterO
 /// How much speaks for a line: long, bright, with two even flanks, all of it in the laser's colour. Crumbs of
 /// texture and edges lack a little of each. In stripe widths of a perfect line.
 double evidence(const LineFacts& line, double widths, double share) {
-  return widths * std::min(share, 1.0) * line.flanks * (1 - line.odd_share) * line.coloured_share *
+  return widths * std::min(share, 1.0) * line.flanks * (1 - 0.5 * line.odd_share) * line.coloured_share *
          line.coloured_share;
 }
 
@@ -292,7 +307,8 @@ bool is_bright_enough(const DerivativeKernels& kernels, double noise, const Line
   const double ratio = line.width / reference.width;
   // Bridges and uneven flanks are rare on a stripe, frequent on stains and edges.
   const double most_odd = std::min(0.2 + 0.03 * std::max(0.0, widths - options.min_length), 0.5);
-  return line.odd_share < most_odd && ratio > 0.65 / width_slack && ratio < 1.5 * width_slack;
+  const bool usual_width = width_slack > 1 || (ratio > 0.65 && ratio < 1.5);
+  return line.odd_share < most_odd && usual_width;
 }
 
 /// Removes the lines (and their facts) that fail.
@@ -337,16 +353,28 @@ void filter_lines(ImageView<T> image, const DerivativeKernels& kernels, double n
   }
   std::swap(lines.lines, workspace.kept);
   facts.clear();
-  for (const LineRange& r : lines.lines) facts.push_back(facts_of(trial, lines, r));
+  for (const LineRange& r : lines.lines) {
+    LineFacts& line = facts.emplace_back(facts_of(trial, lines, r));
+    if (width_slack > 1 && is_hot_column(lines, r, line)) line.length = 0;
+    if (line.flanks >= kLeastFlanks) continue;
+    workspace.edges.length += line.length;
+    workspace.edges.weighted_height += 2 * line.intensity * line.length;
+  }
   keep_if(lines, facts, [&](const LineFacts& line) { return is_stripe_like(trial, line); });
 }
 
 void drop_faint_lines(std::span<const FilteredLines> groups, double noise, const LineFilterOptions& options,
-                      double width_slack) {
+                      double width_slack, const EdgeCrowd& edges) {
   const Reference reference = strong_stripe(groups, options);
+  double kept = 0;
+  for (const FilteredLines& group : groups)
+    for (const LineFacts& line : *group.facts) kept += line.length;
+  // In a grey picture full of edges a line no brighter than they are is made by the same things.
+  const double least_intensity = width_slack > 1 && edges.length > kept ? kOverEdges * edges.height() : 0.0;
   for (const FilteredLines& group : groups)
     keep_if(*group.lines, *group.facts, [&](const LineFacts& line) {
-      return is_bright_enough(*group.kernels, noise, options, width_slack, line, reference);
+      return (line.colour_known || line.intensity > least_intensity) &&
+             is_bright_enough(*group.kernels, noise, options, width_slack, line, reference);
     });
 }
 

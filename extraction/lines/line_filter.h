@@ -35,11 +35,19 @@ struct LineFacts {
   double coloured_share = 1;  ///< of the points, where the laser's colour is
 };
 
+/// The edges met among the lines, which drop on one side only.
+struct EdgeCrowd {
+  double length = 0;           ///< px
+  double weighted_height = 0;  ///< grey levels times px
+  double height() const { return length > 0 ? weighted_height / length : 0.0; }
+};
+
 /// Scratch memory.
 struct LineFilterWorkspace {
   LineMeasures measure;
   std::vector<float> scratch;
   std::vector<BadStretch> stretches;
+  EdgeCrowd edges;                   ///< added up over the scales of one image
   std::vector<std::uint8_t> colour;  ///< one a point: LaserColour
   std::vector<LineRange> kept;
 };
@@ -64,6 +72,6 @@ struct FilteredLines {
 
 /// Drops the lines that are too faint against the strong ones of the same image, whatever their scale.
 void drop_faint_lines(std::span<const FilteredLines> groups, double noise, const LineFilterOptions& options,
-                      double width_slack);
+                      double width_slack, const EdgeCrowd& edges);
 
 }  // namespace lightstripe
