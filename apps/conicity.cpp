@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "apps/command.h"
+#include "apps/options.h"
 #include "io/atomic_file.h"
 #include "pipeline/conicity_job.h"
 #include "report/conicity_report.h"
