@@ -31,7 +31,7 @@ struct ConicityOptions {
   double back_to_back_sigma_mm = 0;
   double radius_difference_mm = 0;     ///< right wheel's radius less the left one's, at the datum
   double from_mm = 1, to_mm = 8;       ///< amplitudes
-  int draws = 80;                      ///< of the profiles' noise; 0: no sigma
+  int draws = 40;                      ///< of the profiles' noise; 0: no sigma
   std::optional<double> max_conicity;  ///< at 3 mm; none: no verdict
 };
 template <class V>

@@ -36,17 +36,63 @@ std::vector<Vector2d> smoothed(const std::vector<Vector2d>& points, const Smooth
   return out;
 }
 
-/// The strength with the least residuals + 2 sigma^2 (parameters spent), Mallows' Cp.
-double best_strength(const std::vector<Vector2d>& points, const std::vector<double>& arc, double sigma) {
-  double best = 0, best_cost = 1e300;
-  for (double strength = 1e-9; strength < 3e4; strength *= 3) {
-    const std::vector<Vector2d> curve = smoothed(points, SmoothingSpline(arc, strength));
-    double squares = 0;
-    for (std::size_t i = 0; i < points.size(); ++i) squares += (points[i] - curve[i]).squaredNorm();
-    const double cost = squares + 2 * sigma * sigma * spent_parameters(arc.back(), points.size(), strength);
-    if (cost < best_cost) best_cost = cost, best = strength;
-  }
+/// Unit, to the left of the passage.
+Vector2d normal_of(const std::vector<Vector2d>& curve, std::size_t i) {
+  const Vector2d along = (curve[std::min(i + 1, curve.size() - 1)] - curve[i > 0 ? i - 1 : 0]).normalized();
+  return {-along.y(), along.x()};
+}
+
+double mallows(const std::vector<Vector2d>& points, const std::vector<double>& arc,
+               const std::vector<double>& strengths, double sigma) {
+  const std::vector<Vector2d> curve = smoothed(points, SmoothingSpline(arc, strengths));
+  double squares = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) squares += (points[i] - curve[i]).squaredNorm();
+  return squares + 2 * sigma * sigma * spent_parameters(arc, strengths);
+}
+
+constexpr double kSoftest = 1e-9, kStiffest = 1e5;  // mm^5; a wave of 30 mm passes the stiffest by half
+constexpr double kFactorStep = 3;
+
+std::vector<double> scaled(const std::vector<double>& shape, double factor) {
+  std::vector<double> out;
+  for (const double one : shape) out.push_back(std::clamp(factor * one, kSoftest, kStiffest));
+  return out;
+}
+
+/// The strengths' factor between two with the least residuals + 2 sigma^2 (parameters spent), Mallows' Cp.
+double best_factor(const std::vector<Vector2d>& points, const std::vector<double>& arc,
+                   const std::vector<double>& shape, double sigma, double from, double to) {
+  double best = from, best_cost = 1e300;
+  for (double factor = from; factor <= to * 1.01; factor *= kFactorStep)
+    if (const double cost = mallows(points, arc, scaled(shape, factor), sigma); cost < best_cost)
+      best_cost = cost, best = factor;
   return best;
+}
+
+/// How stiff the spline may be at each point, for a factor: 1 over the mean square of the curve's third
+/// derivative within some mm.
+std::vector<double> stiffness(const std::vector<Vector2d>& points, const std::vector<double>& arc) {
+  constexpr double kWindowMm = 3, kPilot = 1e4;  // the pilot passes waves of 20 mm by half
+  constexpr double kLeast = 1e-8;                // mm^-4: curvature that changes by 1e-4 per mm a mm
+  const std::vector<Vector2d> pilot =
+      smoothed(points, SmoothingSpline(arc, std::vector<double>(arc.size(), kPilot)));
+  const std::vector<double> y = coordinates(pilot, 0), z = coordinates(pilot, 1);
+  std::vector<double> sums{0};
+  for (std::size_t i = 0; i < arc.size(); ++i) {
+    const std::size_t at = std::min(i > 0 ? i - 1 : 0, arc.size() - 4);
+    sums.push_back(sums.back() + std::pow(third_derivative_of(arc, y, at), 2) +
+                   std::pow(third_derivative_of(arc, z, at), 2));
+  }
+  std::vector<double> out;
+  std::size_t from = 0, to = 0;
+  for (std::size_t i = 0; i < arc.size(); ++i) {
+    while (arc[i] - arc[from] > kWindowMm) ++from;
+    while (to < arc.size() && arc[to] - arc[i] <= kWindowMm) ++to;
+    out.push_back(1 / (kLeast + (sums[to] - sums[from]) / static_cast<double>(to - from)));
+  }
+  const double softest = *std::min_element(out.begin(), out.end());
+  for (double& one : out) one /= softest;
+  return out;
 }
 
 /// Without points that double another or turn back against y by more than the noise can.
@@ -124,55 +170,45 @@ RunningSurface RunningSurface::measured(const std::vector<Vector2d>& raw, const 
   const double noise =
       std::hypot(difference_noise(coordinates(points, 0)), difference_noise(coordinates(points, 1)));
   const double sigma = options.sigma_mm.value_or(noise);
-  std::vector<Vector2d> curve = points;
+  out.curve_ = points;
+  std::vector<double> strengths;
   // The second round measures the arc on the smooth curve: noise lengthens the first one.
   for (int round = 0; round < 2; ++round) {
-    out.arc_mm_ = arc_lengths(curve);
-    out.strength_ = best_strength(points, out.arc_mm_, sigma);
-    curve = smoothed(points, SmoothingSpline(out.arc_mm_, out.strength_));
+    out.arc_mm_ = arc_lengths(out.curve_);
+    const std::vector<double> shape = stiffness(points, out.arc_mm_);
+    out.factor_ = best_factor(points, out.arc_mm_, shape, sigma, kSoftest, kStiffest);
+    strengths = scaled(shape, out.factor_);
+    out.curve_ = smoothed(points, SmoothingSpline(out.arc_mm_, strengths));
   }
   double squares = 0;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const Vector2d along =
-        (curve[std::min(i + 1, points.size() - 1)] - curve[i > 0 ? i - 1 : 0]).normalized();
-    const Vector2d off = points[i] - curve[i];
-    squares += std::pow(along.x() * off.y() - along.y() * off.x(), 2);
-    out.upright_.push_back(1 / std::max(0.2, std::abs(along.x())));
-  }
-  const double spent = spent_parameters(out.arc_mm_.back(), points.size(), out.strength_);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    squares += std::pow((points[i] - out.curve_[i]).dot(normal_of(out.curve_, i)), 2);
+  const double spent = spent_parameters(out.arc_mm_, strengths);
   const auto n = static_cast<double>(points.size());
   out.sigma_mm_ = options.sigma_mm.value_or(std::sqrt(squares / std::max(1.0, n - spent)));
-  const std::vector<std::size_t> nodes = ascending(curve);
+  const std::vector<std::size_t> nodes = ascending(out.curve_);
   LIGHTSTRIPE_CHECK(nodes.size() >= 4, "a surface has at least four points");
-  out.table_ = tabulate(curve, nodes, options.step_mm);
-  std::size_t at = 0;
-  for (std::size_t k = 0; k < out.table_.height_mm.size(); ++k) {
-    const double y = out.table_.first_mm + out.table_.step_mm * static_cast<double>(k);
-    while (at + 2 < nodes.size() && curve[nodes[at + 1]].x() < y) ++at;
-    const double from = curve[nodes[at]].x(), to = curve[nodes[at + 1]].x();
-    out.before_.push_back(nodes[at]);
-    out.share_.push_back(std::clamp((y - from) / (to - from), 0.0, 1.0));
-  }
+  out.table_ = tabulate(out.curve_, nodes, options.step_mm);
   return out;
 }
 
 HeightTable RunningSurface::redrawn(Random& random) const {
-  HeightTable out = table_;
-  if (!(sigma_mm_ > 0) || arc_mm_.empty()) return out;
-  std::vector<double> noise(arc_mm_.size());
+  constexpr double kAbout = 27;  // of the factor, either way
+  if (!(sigma_mm_ > 0) || curve_.empty()) return table_;
+  std::vector<Vector2d> points = curve_;
   double last = 0;
-  for (std::size_t i = 0; i < noise.size(); ++i) {
+  for (std::size_t i = 0; i < points.size(); ++i) {
     const double kept =
         i == 0 || correlation_mm_ <= 0 ? 0.0 : std::exp(-(arc_mm_[i] - arc_mm_[i - 1]) / correlation_mm_);
     last = kept * last + std::sqrt(1 - kept * kept) * sigma_mm_ * random.gaussian();
-    noise[i] = last;
+    points[i] += last * normal_of(curve_, i);
   }
-  const std::vector<double> left = SmoothingSpline(arc_mm_, strength_)(noise);
-  for (std::size_t k = 0; k < out.height_mm.size(); ++k) {
-    const std::size_t i = before_[k], next = std::min(i + 1, left.size() - 1);
-    out.height_mm[k] += (1 - share_[k]) * left[i] * upright_[i] + share_[k] * left[next] * upright_[next];
-  }
-  return out;
+  const std::vector<double> shape = stiffness(points, arc_mm_);
+  const double factor =
+      best_factor(points, arc_mm_, shape, sigma_mm_, factor_ / kAbout, std::min(kStiffest, factor_ * kAbout));
+  const std::vector<Vector2d> curve = smoothed(points, SmoothingSpline(arc_mm_, scaled(shape, factor)));
+  HeightTable drawn = tabulate(curve, ascending(curve), table_.step_mm);
+  return drawn.height_mm.size() < 8 ? table_ : drawn;
 }
 
 }  // namespace lightstripe

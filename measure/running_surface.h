@@ -36,25 +36,25 @@ class RunningSurface {
  public:
   /// Exact: an outline's points as they are, without noise.
   static RunningSurface exact(const std::vector<Eigen::Vector2d>& points, double step_mm = 0.1);
-  /// `points` in their order along the profile, (y, z). A cubic smoothing spline over the arc length (penalty
-  /// on the third derivative), its strength by Mallows' criterion for the points' sigma (Mallows 1973, Some
-  /// comments on Cp). An Error's text in `reason` where there are fewer than 30 points.
+  /// `points` in their order along the profile, (y, z); at least eight. A smoothing spline over the arc
+  /// length (penalty on the third derivative), stiff where the curvature is even and soft in corners: its
+  /// strength falls with the square of the local third derivative; overall it follows Mallows' criterion for
+  /// the points' sigma (Mallows 1973, Some comments on Cp).
   static RunningSurface measured(const std::vector<Eigen::Vector2d>& points, const SmoothingOptions& options);
 
   const HeightTable& table() const { return table_; }
   double sigma_mm() const { return sigma_mm_; }  ///< of a point, across the surface
-  /// The table as another measurement with the same noise would give it.
+  /// The table as another measurement with the same noise would give it, smoothed anew: how strongly was
+  /// chosen by the noise, too.
   HeightTable redrawn(Random& random) const;
 
  private:
   HeightTable table_;
   double sigma_mm_ = 0;
   double correlation_mm_ = 0;
-  std::vector<double> arc_mm_;       ///< of the points, along the profile
-  std::vector<double> upright_;      ///< 1 / cosine of the surface's slope at each point
-  std::vector<std::size_t> before_;  ///< of each table node: the point before it
-  std::vector<double> share_;        ///< and how far on to the next
-  double strength_ = 0;              ///< of the smoothing
+  std::vector<Eigen::Vector2d> curve_;  ///< the smooth profile at the points' places
+  std::vector<double> arc_mm_;          ///< along it
+  double factor_ = 0;                   ///< of the smoothing's strength
 };
 
 }  // namespace lightstripe

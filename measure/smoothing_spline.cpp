@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "measure/smoothing_spline.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "core/error.h"
 #include "measure/robust_line.h"
@@ -26,16 +26,16 @@ std::array<double, 4> third_derivative(const std::vector<double>& t, std::size_t
 
 }  // namespace
 
-SmoothingSpline::SmoothingSpline(const std::vector<double>& places, double strength)
+SmoothingSpline::SmoothingSpline(const std::vector<double>& places, const std::vector<double>& strengths)
     : diagonal_(places.size(), 1.0),
       one_(places.size(), 0.0),
       two_(places.size(), 0.0),
       three_(places.size(), 0.0) {
   const std::size_t n = places.size();
-  LIGHTSTRIPE_CHECK(n >= 4, "a smoothing spline needs four places");
+  LIGHTSTRIPE_CHECK(n >= 4 && strengths.size() == n, "a smoothing spline needs four places or more");
   for (std::size_t i = 0; i + 3 < n; ++i) {
     const std::array<double, 4> d = third_derivative(places, i);
-    const double weight = strength * (places[i + 3] - places[i]) / 3;
+    const double weight = strengths[i + 1] * (places[i + 3] - places[i]) / 3;
     for (std::size_t a = 0; a < 4; ++a) {
       diagonal_[i + a] += weight * d[a] * d[a];
       if (a >= 1) one_[i + a] += weight * d[a] * d[a - 1];
@@ -76,16 +76,24 @@ std::vector<double> SmoothingSpline::operator()(const std::vector<double>& value
   return x;
 }
 
-double spent_parameters(double length, std::size_t points, double strength) {
-  const double spacing = length / static_cast<double>(points - 1);
+double spent_parameters(const std::vector<double>& places, const std::vector<double>& strengths) {
+  const std::size_t n = places.size();
   double trace = 3;  // parabolas pass
-  for (std::size_t k = 3; k < points; ++k) {
-    const double omega =
-        2 / spacing *
-        std::sin(std::numbers::pi * static_cast<double>(k) / (2.0 * static_cast<double>(points)));
-    trace += 1 / (1 + strength * spacing * std::pow(omega, 6));
+  for (std::size_t i = 0; i < n; ++i) {
+    const double spacing =
+        (places[std::min(i + 1, n - 1)] - places[i > 0 ? i - 1 : 0]) / (i > 0 && i + 1 < n ? 2 : 1);
+    // integral of 1 / (1 + strength spacing omega^6) over the frequencies that the places carry
+    trace += std::min(1.0, spacing / 3 * std::pow(strengths[i] * spacing, -1.0 / 6));
   }
-  return trace;
+  return std::min(trace, static_cast<double>(n) - 1);
+}
+
+double third_derivative_of(const std::vector<double>& places, const std::vector<double>& values,
+                           std::size_t i) {
+  const std::array<double, 4> weights = third_derivative(places, i);
+  double sum = 0;
+  for (std::size_t a = 0; a < 4; ++a) sum += weights[a] * values[i + a];
+  return sum;
 }
 
 double difference_noise(const std::vector<double>& values) {
