@@ -28,6 +28,7 @@ LIBRARY_IN = {
     r"ceres/": {"calib"},
     r"pcl/": {"reconstruct"},
     r"yaml-cpp/": {"io"},
+    r"arv\.h": {"io"},
     r"opencv2/(imgcodecs|videoio|highgui)": {"io"},
     r"opencv2/calib3d|opencv2/aruco|opencv2/objdetect": {"calib"},
     r"opencv2/": {"io", "calib", "extraction", "simulate", "report", "apps"},
