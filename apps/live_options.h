@@ -3,7 +3,7 @@
 // Options that `record` and `live` share.
 #pragma once
 
-#include "apps/command.h"
+#include "apps/options.h"
 #include "core/error.h"
 #include "pipeline/record_frames.h"
 
