@@ -80,9 +80,9 @@ std::string describe_calibration(const SessionObservations& seen, const Calibrat
   if (quality.section_shape_sigma_mm > 0)
     text += fmt::format("predicted error of a section: {:.4f} mm in shape, {:.3f} mm in place\n",
                         quality.section_shape_sigma_mm, quality.section_absolute_sigma_mm);
-  if (quality.cross_validation_ratio > 0)
+  if (quality.cross_validation_ratio)
     text += fmt::format("every other view against the rest: sections differ by {:.2f} times the prediction\n",
-                        quality.cross_validation_ratio);
+                        *quality.cross_validation_ratio);
   if (!quality.weakest.empty()) text += "weakest: " + quality.weakest + "\n";
   while (!text.empty() && text.back() == '\n') text.pop_back();
   return text;

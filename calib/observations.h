@@ -34,7 +34,8 @@ struct BoardView {
   std::string pose;
   std::vector<Eigen::Vector2d> corners;  ///< px, in the order of Target::corner; see is_seen()
   std::vector<std::vector<StripePoint>>
-      stripes;  ///< for each laser plane the points on the board (may be empty)
+      stripes;               ///< for each laser plane the points on the board (may be empty)
+  bool laser_apart = false;  ///< the stripe was seen in a picture of its own, paired with the board's by name
 };
 
 struct SensorObservations {
