@@ -124,7 +124,7 @@ std::string rig_json(const SessionObservations& seen, const CalibrationResult& r
                             point_json(sensor.rig_from_camera.translation),
                             outline_json(frustum(sensor, 120))));
   const Target& t = seen.observations.target;
-  const double w = (t.columns - 1) * t.pitch_x, h = (t.rows - 1) * t.pitch_y;
+  const double w = t.extent().x(), h = t.extent().y();
   if (result.diagnosis)
     for (const auto& pose : result.diagnosis->rig_from_board)
       boards.add(outline_json({pose * Eigen::Vector3d(0, 0, 0), pose * Eigen::Vector3d(w, 0, 0),

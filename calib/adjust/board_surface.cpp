@@ -9,7 +9,7 @@ namespace lightstripe {
 using Eigen::Vector2d;
 
 BoardPlace board_place(const Target& target, const Vector2d& xy) {
-  const Vector2d half(0.5 * (target.columns - 1) * target.pitch_x, 0.5 * (target.rows - 1) * target.pitch_y);
+  const Vector2d half = target.middle();
   const Vector2d at = (xy - half).cwiseQuotient(half);
   return {xy, Vector2d::Ones() - at.cwiseAbs2(), -2 * at.cwiseQuotient(half)};
 }

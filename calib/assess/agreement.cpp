@@ -90,8 +90,7 @@ void refuse_contradicting_travel(const SessionViews& session,
 }
 
 double median_depth_mm(const SessionViews& session, const RigState& state, std::size_t sensor) {
-  const Eigen::Vector2d& last = session.target.corner(session.target.num_corners() - 1);
-  const Eigen::Vector3d middle(0.5 * last.x(), 0.5 * last.y(), 0);
+  const Eigen::Vector3d middle(session.target.middle().x(), session.target.middle().y(), 0);
   std::vector<double> depths;
   for (const auto& view : session.views)
     if (view.sensor == static_cast<int>(sensor) && view.pose >= 0)

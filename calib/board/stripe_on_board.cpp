@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "calib/adjust/session_views.h"
+#include "calib/board/board_edges.h"
 #include "calib/board/board_map.h"
 #include "calib/board/laser_light.h"
 #include "calib/board/observe_board.h"
@@ -36,13 +37,6 @@ struct Placed {
   double mm_per_px;  ///< across the stripe, on the board
 };
 
-/// Distance to the nearest grid line of one coordinate, in units of the coordinate; outer edges of the
-/// squares count.
-double to_grid_line(double value, double pitch, int corners) {
-  const double line = std::clamp(std::round(value / pitch), -1.0, static_cast<double>(corners));
-  return std::abs(value - line * pitch);
-}
-
 /// How near (px) an edge may come. Where the albedo is seen through a Gaussian of deviation b, a step of it
 /// at distance D shifts the stripe's centre by about b^2 |component of its logarithmic gradient across the
 /// stripe| = b ln(ratio) / sqrt(2 pi) |cos| exp(-D^2 / 2 b^2), largest for edges along the stripe and nothing
@@ -60,23 +54,12 @@ bool near_edge(const StripePoint& point, const Vector2d& p_board, const Eigen::M
   const double window_px = point.width / (2 * std::sqrt(3.0)) / std::sqrt(2.0);
   const double blur_px = std::hypot(window_px, kLensBlurPx);
   const Vector2d normal(point.normal_x, point.normal_y);
-  const double distance[2] = {to_grid_line(p_board.x(), target.pitch_x, target.columns),
-                              to_grid_line(p_board.y(), target.pitch_y, target.rows)};
-  for (int i = 0; i < 2; ++i) {
-    const Vector2d gradient =
-        board_by_pixel.row(i).transpose();  // across the grid lines of this coordinate, mm / px
+  const auto edges = nearest_edges(target, p_board);
+  return std::any_of(edges.begin(), edges.end(), [&](const PrintEdge& edge) {
+    const Vector2d gradient = board_by_pixel.transpose() * edge.across;  // mm across the edge / px
     const double cosine = std::abs(gradient.dot(normal)) / gradient.norm();
-    if (distance[i] / gradient.norm() < margin_px(blur_px, cosine)) return true;
-  }
-  return false;
-}
-
-/// In a ChArUco board's white squares the markers' edges shift the stripe's centre; the dark squares are
-/// plain.
-bool on_marker_square(const Vector2d& p_board, const Target& target) {
-  const auto column = static_cast<long>(std::floor(p_board.x() / target.pitch_x)),
-             row = static_cast<long>(std::floor(p_board.y() / target.pitch_y));
-  return target.type == TargetType::kCharuco && (column + row) % 2 != 0;
+    return edge.distance_mm / gradient.norm() < margin_px(blur_px, cosine);
+  });
 }
 
 std::vector<Placed> on_board(const std::vector<Stripe>& stripes, const BoardMap& map, const Target& target) {
@@ -85,9 +68,7 @@ std::vector<Placed> on_board(const std::vector<Stripe>& stripes, const BoardMap&
     for (const auto& point : stripe.points) {
       if (point.flags & kStripeBridged) continue;
       const Vector2d pixel(point.x, point.y), p = map(pixel);
-      const bool inside = p.x() > -target.pitch_x && p.x() < target.columns * target.pitch_x &&
-                          p.y() > -target.pitch_y && p.y() < target.rows * target.pitch_y;
-      if (!inside || on_marker_square(p, target)) continue;
+      if (!carries_stripes(target, p)) continue;
       const Eigen::Matrix2d J = map.derivative(pixel);
       placed.push_back({point, p, (J * Vector2d(point.normal_x, point.normal_y)).norm()});
     }

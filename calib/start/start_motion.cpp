@@ -61,8 +61,7 @@ Track follow_board(InitialValues& values) {
 
 /// Least squares of the board's middle against travel.
 MotionState fit_direction(const Track& track, const Target& target, std::vector<std::string>& warnings) {
-  const Vector3d middle(0.5 * (target.columns - 1) * target.pitch_x, 0.5 * (target.rows - 1) * target.pitch_y,
-                        0);
+  const Vector3d middle(target.middle().x(), target.middle().y(), 0);
   const double n = static_cast<double>(track.travel.size());
   double mean_s = 0;
   Vector3d mean_p = Vector3d::Zero();
