@@ -3,6 +3,7 @@
 #include "apps/measure.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
@@ -15,6 +16,7 @@
 #include "io/atomic_file.h"
 #include "io/images.h"
 #include "io/rig_file.h"
+#include "measure/measure_track.h"
 #include "measure/profile_formats.h"
 #include "pipeline/frame_links.h"
 #include "pipeline/measure_input.h"
@@ -33,11 +35,24 @@ std::string output_of(const MeasureArguments& arguments) {
   return arguments.common.output.empty() ? "measurements.csv" : arguments.common.output;
 }
 
+/// The names of --require, each looked up among the table's columns.
+std::vector<std::string> required_of(const MeasureArguments& arguments) {
+  std::vector<std::string> names = estimate_names(arguments.kind);
+  const auto extras = arguments.two_rails ? track_extra_names() : extra_names(arguments.kind);
+  names.insert(names.end(), extras.begin(), extras.end());
+  for (const std::string& name : arguments.require)
+    if (std::find(names.begin(), names.end(), name) == names.end())
+      throw Error("--require", fmt::format("'{}' is no quantity of a {}", name, kind_name(arguments.kind)),
+                  fmt::format("name one of {}", fmt::join(names, ", ")));
+  return arguments.require;
+}
+
 MeasureOptions options_of(const MeasureArguments& arguments) {
   MeasureOptions options;
   apply_overrides(options.rail, arguments.rail);
   apply_overrides(options.wheel, arguments.wheel);
   apply_overrides(options.registration, arguments.registration);
+  options.required = required_of(arguments);
   if (arguments.max_overlap_gap_mm) options.max_overlap_gap_mm = *arguments.max_overlap_gap_mm;
   return options;
 }
@@ -155,8 +170,16 @@ void summarise(const MeasureArguments& arguments, const MeasureOutcome& outcome)
 int run_measure(const MeasureArguments& arguments) {
   const MeasureOutcome outcome = measure_profiles(arguments);
   summarise(arguments, outcome);
+  if (outcome.num_known == 0)
+    return not_usable(arguments.require.empty()
+                          ? fmt::format("nothing could be measured in any of {} frames", outcome.rows.size())
+                          : fmt::format("none of {} is known in any of {} frames",
+                                        fmt::join(arguments.require, ", "), outcome.rows.size()));
   if (outcome.num_ok == 0)
-    return not_usable(fmt::format("none of {} frames could be measured completely", outcome.rows.size()));
+    warn(
+        fmt::format("none of {} frames could be measured completely: what is not known is an empty cell "
+                    "(--require names what you need)",
+                    outcome.rows.size()));
   return kExitDone;
 }
 
@@ -183,6 +206,7 @@ MeasureOutcome measure_profiles(const MeasureArguments& arguments) {
   for (const MeasuredFrame& row : outcome.rows) {
     outcome.verdicts.push_back(verdict_name(judge(row, limits)));
     outcome.num_ok += row.status == "ok" ? 1 : 0;
+    outcome.num_known += any_known(row, options) ? 1 : 0;
   }
   write_file(output_of(arguments),
              measurement_table(outcome.rows, arguments.kind, outcome.extra_columns, outcome.verdicts));
@@ -219,6 +243,11 @@ void add_measure_command(CLI::App& app, Command& run) {
       ->transform(CLI::CheckedTransformer(rails));
   command->add_option("--nominal-right", arguments->nominal_right,
                       "with --rails two: the new rail at -y [as --nominal]");
+  command
+      ->add_option("--require", arguments->require,
+                   "what you need of each section, e.g. vertical_wear,side_wear: a row is ok where these are "
+                   "known, exit code 3 where none of them is [all]")
+      ->delimiter(',');
   command->add_option("--scan", arguments->scan, "scan file: the report links to its pictures");
   command->add_option("--limits", arguments->limits, "file of limits (YAML)");
   command->add_option("--report", arguments->report, "report to look at (HTML)");

@@ -26,7 +26,8 @@ struct MeasureArguments {
   std::string report;         ///< empty: not written
   std::vector<std::int64_t> plot;
   std::string export_folder, export_format = "miniprof";
-  std::string rig;  ///< empty: the diameter gets no sigma
+  std::string rig;                   ///< empty: the diameter gets no sigma
+  std::vector<std::string> require;  ///< names of the estimates that the user needs; empty: all
   std::optional<double> max_overlap_gap_mm;
   Overrides rail, wheel, registration, limit;
 };
@@ -37,6 +38,7 @@ struct MeasureOutcome {
   std::vector<std::string> extra_columns;  ///< names of the rows' extras
   std::optional<RunOut> run_out;           ///< of a wheel
   int num_ok = 0;
+  int num_known = 0;  ///< rows where at least one estimate that the user needs is known
 };
 
 /// Reads, measures and writes.
