@@ -118,8 +118,7 @@ int turned_index(const Target& target, int index, int quarter_turns) {
 /// The quarter turns that map the board onto itself.
 std::vector<int> quarter_turns(const Target& target) {
   const bool turns = target.type == TargetType::kCheckerboard || target.type == TargetType::kCircles;
-  const bool square = turns && target.columns == target.rows &&
-                      target.pitch_x == target.pitch_y;
+  const bool square = turns && target.columns == target.rows && target.pitch_x == target.pitch_y;
   if (square) return {0, 1, 2, 3};
   if (target.half_turn_symmetric()) return {0, 2};
   return {0};

@@ -11,7 +11,9 @@
 #include "calib/adjust/session_views.h"
 #include "calib/board/board_edges.h"
 #include "calib/board/board_map.h"
+#include "calib/board/board_shift.h"
 #include "calib/board/laser_light.h"
+#include "calib/board/laser_look.h"
 #include "calib/board/observe_board.h"
 #include "calib/start/stripe_planes.h"
 #include "core/error.h"
@@ -165,6 +167,31 @@ void order_lines(std::vector<std::vector<StripePoint>>& lines) {
   });
 }
 
+/// What is there instead of a line on the board.
+std::string why_no_line(const std::vector<Stripe>& stripes, const std::vector<Placed>& points,
+                        const BoardMap& map, const Target& target) {
+  if (!points.empty())
+    return fmt::format("no straight stripe on the board ({} bright points on it)", points.size());
+  std::size_t anywhere = 0, near = 0;
+  for (const auto& stripe : stripes) {
+    anywhere += stripe.points.size();
+    for (const auto& point : stripe.points) {
+      const Vector2d p = map({point.x, point.y}) - target.middle();
+      near += std::abs(p.x()) < target.extent().x() && std::abs(p.y()) < target.extent().y();
+    }
+  }
+  if (anywhere == 0) return "no light on the board; is the laser on in this picture, and bright enough?";
+  if (near >= kMinPoints)
+    return fmt::format(
+        "no light on the board: the line runs beside its squares ({} points); hold the board "
+        "into the laser, or give target.rim_mm where a broader rim lies in the board's plane",
+        near);
+  return fmt::format(
+      "no light on the board; the picture's line ({} points) is elsewhere: hold the board into "
+      "the laser",
+      anywhere);
+}
+
 }  // namespace
 
 StripeOnBoard select_stripes(const std::vector<Stripe>& stripes, const std::vector<Vector2d>& corners,
@@ -181,11 +208,8 @@ StripeOnBoard select_stripes(const std::vector<Stripe>& stripes, const std::vect
   for (int i = 0; i < laser_planes; ++i) {
     const auto chosen = best_line(points);
     if (chosen.empty()) {
-      result.reason =
-          i > 0 ? fmt::format("{} of {} stripes on the board", i, laser_planes)
-          : points.empty()
-              ? "no light on the board; is the laser on in this picture, and bright enough?"
-              : fmt::format("no straight stripe on the board ({} bright points on it)", points.size());
+      result.reason = i > 0 ? fmt::format("{} of {} stripes on the board", i, laser_planes)
+                            : why_no_line(stripes, points, *map, target);
       result.planes.clear();
       return result;
     }
@@ -205,19 +229,50 @@ StripeOnBoard select_stripes(const std::vector<Stripe>& stripes, const std::vect
   return result;
 }
 
+namespace {
+
+/// Board and stripe in one picture: the line must look like a laser's.
+StripeOnBoard find_in_one_picture(ImageView8 image, const std::vector<Vector2d>& corners,
+                                  const Target& target, int laser_planes,
+                                  const ExtractionOptions& extraction) {
+  StripeOnBoard result =
+      select_stripes(extract_stripes(image, extraction).stripes, corners, target, laser_planes);
+  for (const auto& line : result.planes) {
+    const std::string why = no_laser_because(image, line, corners, target);
+    if (why.empty()) continue;
+    result.planes.clear();
+    result.reason = why;
+    break;
+  }
+  return result;
+}
+
+}  // namespace
+
 StripeOnBoard find_stripe_on_board(ImageView8 laser, ImageView8 board, const std::vector<Vector2d>& corners,
                                    const Target& target, int laser_planes,
                                    const ExtractionOptions& extraction) {
-  if (board.empty())
-    return select_stripes(extract_stripes(laser, extraction).stripes, corners, target, laser_planes);
+  if (board.empty()) return find_in_one_picture(laser, corners, target, laser_planes, extraction);
   StripeOnBoard result;
   if (board.width != laser.width || board.height != laser.height) {
     result.reason = fmt::format("the laser image has {} x {} pixels, the board image {} x {}", laser.width,
                                 laser.height, board.width, board.height);
     return result;
   }
-  return select_stripes(extract_stripes(laser_light(laser, board), extraction).stripes, corners, target,
-                        laser_planes);
+  constexpr double kMovedPx = 1;
+  if (const auto shift = board_shift_px(laser, board, corners, target); shift && *shift > kMovedPx) {
+    result.reason = fmt::format(
+        "the board moved by {:.1f} px between the picture without laser and that with it", *shift);
+    return result;
+  }
+  result = select_stripes(extract_stripes(laser_light(laser, board), extraction).stripes, corners, target,
+                          laser_planes);
+  if (!result.planes.empty()) return result;
+  const auto swapped = select_stripes(extract_stripes(laser_light(board, laser), extraction).stripes, corners,
+                                      target, laser_planes);
+  if (!swapped.planes.empty() && swapped.reason.empty())
+    result.reason = "the laser line is in the picture under `board`: swap the patterns of board and laser";
+  return result;
 }
 
 }  // namespace lightstripe

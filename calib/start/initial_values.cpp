@@ -4,6 +4,8 @@
 
 #include <utility>
 
+#include "calib/start/correct_circles.h"
+
 namespace lightstripe {
 
 InitialValues initial_values(SessionViews session) {
@@ -11,6 +13,11 @@ InitialValues initial_values(SessionViews session) {
   values.session = std::move(session);
   values.warnings = values.session.left_out;
   start_cameras(values);
+  if (values.session.target.has_circles()) {
+    correct_circles(values);
+    values.state.sensors.clear();
+    start_cameras(values);
+  }
   link_sensors(values);
   start_laser_planes(values);
   if (values.session.motion != MotionType::kNone) start_motion(values);
