@@ -43,8 +43,10 @@ std::optional<double> radius_where_v_is_0(const RecordedProfile& recorded) {
   return *diameter / 2 - fit->value;
 }
 
-MeasureInput input_of(const RecordedProfile& recorded) {
+MeasureInput input_of(const RecordedProfile& recorded, const std::string& path) {
   MeasureInput input;
+  input.file = path;
+  input.kind = recorded.kind;
   Profile profile;
   for (const Eigen::Vector2d& p : recorded.points) {
     ProfilePoint point;
@@ -94,8 +96,10 @@ std::optional<double> median_rms(const std::vector<Profile>& profiles, const std
 std::string kind_name(ObjectKind kind) { return kind == ObjectKind::kRail ? "rail" : "wheel"; }
 
 MeasureInput read_measure_input(const std::string& path, ObjectKind kind) {
-  if (const auto format = profile_format(path)) return input_of(read_recorded(path, *format, kind));
+  if (const auto format = profile_format(path)) return input_of(read_recorded(path, *format, kind), path);
   MeasureInput input;
+  input.file = path;
+  input.kind = kind;
   input.profiles = read_profiles(path);
   if (input.profiles.empty()) throw Error(path, "has no rows", "give the sections of a scan");
   if (kind == ObjectKind::kRail) return input;

@@ -1,15 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The lightstripe authors
 // SPDX-License-Identifier: Apache-2.0
+#include "pipeline/observe_session.h"
+
 #include <fmt/format.h>
-#include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
 
-#include "apps/calibrate.h"
-#include "apps/progress.h"
 #include "core/error.h"
-#include "core/task_order.h"
 #include "io/camera_file.h"
 #include "io/images.h"
 #include "io/tables.h"
@@ -26,7 +25,8 @@ struct ViewTask {
   double travel = 0;
   std::string pose;
   fs::path board;
-  fs::path laser;  ///< empty: the stripe is in the board's image, or there is none (motion)
+  fs::path laser;            ///< empty: the stripe is in the board's image, or there is none (motion)
+  bool camera_only = false;  ///< the board is there for the camera, without laser
 };
 
 struct ViewResult {
@@ -34,6 +34,8 @@ struct ViewResult {
   SeenPicture picture;
   int width = 0, height = 0;
   std::vector<RejectedImage> rejected;
+  int seen_columns = 0, seen_rows = 0;  ///< of the squares in a picture where the board was not found
+  double circle_mm = 0;
 };
 
 /// Pairs board and laser images by the text that the '*' stands for; a laser image alone is reported, not
@@ -50,6 +52,7 @@ std::vector<ViewTask> sensor_tasks(const Session& session, int index, std::vecto
     task.sensor = index;
     task.pose = matched_text(sensor.board, file);
     task.board = file;
+    task.camera_only = sensor.no_laser;
     const auto partner = lasers.find(task.pose);
     if (partner != lasers.end()) {
       task.laser = partner->second;
@@ -60,6 +63,11 @@ std::vector<ViewTask> sensor_tasks(const Session& session, int index, std::vecto
     }
     tasks.push_back(std::move(task));
   }
+  if (sensor.board_only)
+    for (const auto& file : list_files(session.folder, *sensor.board_only)) {
+      ViewTask task{index, false, 0, "board_only/" + matched_text(*sensor.board_only, file), file, {}, true};
+      tasks.push_back(std::move(task));
+    }
   for (const auto& [pose, file] : lasers)
     rejected.push_back({sensor.name, file.filename().string(), "no board image of the same pose"});
   return tasks;
@@ -96,7 +104,7 @@ BoardDetection find_board(const fs::path& file, const Session& session, Image8& 
   const bool automatic = session.channel == Channel::kAuto || enum_name(session.channel).ends_with("-excess");
   image = read_image(file, automatic ? Channel::kGray : session.channel);
   BoardDetection detection = detect_board(image, session.target);
-  if (detection.found || !automatic) return detection;
+  if (detection.found || !automatic || !detection.board_like) return detection;
   for (const Channel channel : {Channel::kBlue, Channel::kGreen, Channel::kRed}) {
     const Image8 other = read_image(file, channel);
     if (other.pixels == image.pixels) break;  // a picture without colour
@@ -115,12 +123,17 @@ ViewResult observe_view(const ViewTask& task, const Session& session, const Extr
   result.height = board.height;
   const std::string name = task.motion ? task.pose : task.board.filename().string();
   result.picture = {sensor.name, name, detection.reason, task.board, task.laser, detection.corners, {}};
+  result.circle_mm = detection.circle_mm;
   if (!detection.found) {
     result.rejected.push_back({sensor.name, name, detection.reason});
+    result.seen_columns = detection.seen_columns;
+    result.seen_rows = detection.seen_rows;
     return result;
   }
-  BoardView view{name, task.pose, detection.corners, {}};
-  const bool single = !sensor.laser && !task.motion;
+  BoardView view{name, task.pose, detection.corners, {}, !task.laser.empty()};
+  const bool single = !sensor.laser && !task.motion && !task.camera_only;
+  Target target = session.target;
+  if (target.circle_mm == 0) target.circle_mm = detection.circle_mm;
   if (single || !task.laser.empty()) {
     Channel channel = session.channel;
     const Image8 laser = read_image(single ? task.board : task.laser, session.channel, &channel);
@@ -132,7 +145,7 @@ ViewResult observe_view(const ViewTask& task, const Session& session, const Extr
     // The difference of the pair needs the same channel in both; a single picture has nothing to subtract.
     const Image8 dark = single ? Image8() : read_image(task.board, channel);
     const StripeOnBoard stripe =
-        find_stripe_on_board(laser, single ? ImageView8() : dark.view(), detection.corners, session.target,
+        find_stripe_on_board(laser, single ? ImageView8() : dark.view(), detection.corners, target,
                              sensor.laser_planes, extraction);
     view.stripes = stripe.planes;
     result.picture.stripes = stripe.planes;
@@ -167,6 +180,45 @@ CalibrationObservations empty_observations(const Session& session) {
   return observations;
 }
 
+/// Where the pictures agree on squares of another number than the session's, they say so together.
+void note_common_size(const Session& session, std::vector<ViewResult>& results) {
+  constexpr int kMin = 3;
+  std::map<std::array<int, 2>, int> counts;
+  int unseen = 0;
+  for (const auto& result : results) {
+    if (result.view) continue;
+    ++unseen;
+    if (result.seen_columns > 0) ++counts[{result.seen_columns, result.seen_rows}];
+  }
+  const auto commonest = std::max_element(counts.begin(), counts.end(),
+                                          [](const auto& a, const auto& b) { return a.second < b.second; });
+  if (commonest == counts.end() || commonest->second < kMin || 2 * commonest->second < unseen ||
+      2 * unseen < static_cast<int>(results.size()))
+    return;
+  const auto [columns, rows] = commonest->first;
+  if (columns == session.target.columns && rows == session.target.rows) return;
+  const std::string reason = fmt::format(
+      "{} pictures show {} x {} inner corners, the session says {} x {}",
+      commonest->second == static_cast<int>(results.size()) ? "all" : std::to_string(commonest->second),
+      columns, rows, session.target.columns, session.target.rows);
+  for (auto& result : results) {
+    if (result.view || result.seen_columns != columns || result.seen_rows != rows) continue;
+    result.picture.reason = reason;
+    for (auto& rejected : result.rejected) rejected.reason = reason;
+  }
+}
+
+/// The circles' diameter where the session does not give it: the median over the pictures.
+double common_circle_mm(const std::vector<ViewResult>& results) {
+  std::vector<double> seen;
+  for (const auto& result : results)
+    if (result.view && result.circle_mm > 0) seen.push_back(result.circle_mm);
+  if (seen.empty()) return 0;
+  const auto middle = seen.begin() + static_cast<std::ptrdiff_t>(seen.size() / 2);
+  std::nth_element(seen.begin(), middle, seen.end());
+  return *middle;
+}
+
 void check_size(SensorObservations& sensor, const ViewTask& task, const ViewResult& result) {
   if (sensor.width == 0) {
     sensor.width = result.width;
@@ -190,7 +242,7 @@ void check_size(SensorObservations& sensor, const ViewTask& task, const ViewResu
 }  // namespace
 
 SessionObservations observe_session(const Session& session, const ExtractionOptions& extraction,
-                                    const CommonOptions& common) {
+                                    const ProgressCallback& progress, const std::stop_token& stop) {
   SessionObservations seen;
   std::vector<ViewTask> tasks;
   for (std::size_t i = 0; i < session.sensors.size(); ++i)
@@ -199,16 +251,19 @@ SessionObservations observe_session(const Session& session, const ExtractionOpti
   for (auto& task : motion_tasks(session)) tasks.push_back(std::move(task));
 
   std::vector<ViewResult> results(tasks.size());
-  Progress progress("looking for boards", "images", static_cast<std::int64_t>(tasks.size()), common.quiet);
-  const auto observe = [&](std::size_t i) {
+  StepCounter steps("looking for boards", "images", static_cast<std::int64_t>(tasks.size()), progress);
+  parallel_for(tasks.size(), [&](std::size_t i) {
+    if (stop.stop_requested()) return;
     results[i] = observe_view(tasks[i], session, extraction);
-    progress.step();
-  };
-  before_tasks();
-  oneapi::tbb::parallel_for(std::size_t{0}, tasks.size(), Task(observe));
-  after_tasks();
+    steps.step();
+  });
+  if (stop.stop_requested())
+    throw Error((session.folder).string(), "the run was stopped before all pictures were looked at",
+                "run it again");
 
+  note_common_size(session, results);
   seen.observations = empty_observations(session);
+  if (seen.observations.target.circle_mm == 0) seen.observations.target.circle_mm = common_circle_mm(results);
   for (std::size_t i = 0; i < tasks.size(); ++i) {
     SensorObservations& sensor = seen.observations.sensors[static_cast<std::size_t>(tasks[i].sensor)];
     check_size(sensor, tasks[i], results[i]);

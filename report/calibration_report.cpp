@@ -3,13 +3,12 @@
 #include "report/calibration_report.h"
 
 #include <fmt/format.h>
-#include <oneapi/tbb/parallel_for.h>
 
 #include <cmath>
 
 #include "calib/assess/diagnosis.h"
-#include "core/task_order.h"
 #include "io/images.h"
+#include "parallel/parallel.h"
 #include "report/board_overlay.h"
 #include "report/report_json.h"
 #include "report/report_texts.h"
@@ -146,9 +145,7 @@ std::string pictures_json(const std::vector<SeenPicture>& pictures, bool rejecte
         json(p.sensor), json(p.image), json(p.reason),
         base64(encode_jpeg(overlay.rgb, overlay.width, overlay.height)));
   };
-  before_tasks();
-  oneapi::tbb::parallel_for(std::size_t{0}, pictures.size(), Task(draw));
-  after_tasks();
+  parallel_for(pictures.size(), draw);
   JsonList list;
   for (const auto& text : texts)
     if (!text.empty()) list.add(text);

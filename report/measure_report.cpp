@@ -19,6 +19,12 @@ namespace {
 
 constexpr std::size_t kWorst = 15;  // places in the table
 
+struct MeasureReport {
+  const MeasureJob& job;
+  const MeasureResult& result;
+  const std::filesystem::path &page, &scan_file;
+};
+
 constexpr const char* kStyle =
     "body{font:14px/1.45 sans-serif;max-width:1280px;margin:24px auto;padding:0 16px;color:#222}"
     "table{border-collapse:collapse;margin:8px 0}td,th{padding:3px 7px;white-space:nowrap;border-bottom:1px "
@@ -60,15 +66,15 @@ std::string limit_text(const Bounds& bounds) {
 }
 
 std::vector<std::string> quantities(const MeasureReport& report) {
-  std::vector<std::string> names = estimate_names(report.arguments.kind);
-  for (const std::string& name : report.outcome.extra_columns) names.push_back(name);
+  std::vector<std::string> names = estimate_names(report.job.kind);
+  for (const std::string& name : report.result.extra_columns) names.push_back(name);
   return names;
 }
 
 Bounds drawn_bounds(const MeasureReport& report, const std::string& name) {
   if (name == "overlap_gap" || name == "right_overlap_gap")
-    return {-report.max_overlap_gap_mm, report.max_overlap_gap_mm};
-  return bounds_of(name, report.limits);
+    return {-report.job.options.max_overlap_gap_mm, report.job.options.max_overlap_gap_mm};
+  return bounds_of(name, report.job.limits);
 }
 
 std::string run_out_text(const char* what, const Estimate& run_out) {
@@ -83,7 +89,7 @@ std::string summary_table(const MeasureReport& report) {
       "<table><tr><th>quantity</th><th>frames</th><th>lowest</th><th>mean</th><th>highest</th><th>limit</"
       "th></tr>";
   for (const std::string& name : quantities(report)) {
-    const Spread spread = spread_of(report.outcome.rows, name);
+    const Spread spread = spread_of(report.result.rows, name);
     html += fmt::format("<tr><td>{}</td><td>{}</td>", name, spread.known);
     if (spread.known > 0) {
       html +=
@@ -94,16 +100,16 @@ std::string summary_table(const MeasureReport& report) {
     html += "<td>" + limit_text(drawn_bounds(report, name)) + "</td></tr>";
   }
   html += "</table>";
-  if (report.outcome.run_out)
-    html += run_out_text("Radial", report.outcome.run_out->radial) +
-            run_out_text("Axial", report.outcome.run_out->axial);
+  if (report.result.run_out)
+    html += run_out_text("Radial", report.result.run_out->radial) +
+            run_out_text("Axial", report.result.run_out->axial);
   return html;
 }
 
 /// One quantity along the track: values with one sigma, limits in red.
 std::string track_chart(const MeasureReport& report, const std::string& name) {
   constexpr double kWidth = 1100, kHeight = 130, kLeft = 60, kBottom = 20, kTop = 8;
-  const Spread spread = spread_of(report.outcome.rows, name);
+  const Spread spread = spread_of(report.result.rows, name);
   if (spread.known < 2) return "";
   const Bounds bounds = drawn_bounds(report, name);
   double low = spread.low, high = spread.high;
@@ -111,11 +117,11 @@ std::string track_chart(const MeasureReport& report, const std::string& name) {
     if (limit) low = std::min(low, *limit), high = std::max(high, *limit);
   const double margin = std::max(0.02, 0.08 * (high - low));
   low -= margin, high += margin;
-  double first = report.outcome.rows.front().travel, last = first;
-  for (const MeasuredFrame& row : report.outcome.rows)
+  double first = report.result.rows.front().travel, last = first;
+  for (const MeasuredFrame& row : report.result.rows)
     first = std::min(first, row.travel), last = std::max(last, row.travel);
   const bool by_frame = !(last > first);
-  if (by_frame) first = 0, last = std::max(1.0, static_cast<double>(report.outcome.rows.size()) - 1);
+  if (by_frame) first = 0, last = std::max(1.0, static_cast<double>(report.result.rows.size()) - 1);
   const auto x = [&](double s) { return kLeft + (s - first) / (last - first) * (kWidth - kLeft - 10); };
   const auto y = [&](double value) {
     return kTop + (high - value) / (high - low) * (kHeight - kTop - kBottom);
@@ -130,10 +136,10 @@ std::string track_chart(const MeasureReport& report, const std::string& name) {
       "<text x=\"{}\" y=\"{}\">{} {:g}</text><text x=\"{}\" y=\"{}\" text-anchor=\"end\">{:g}</text>", kLeft,
       kHeight - 5, by_frame ? "frame" : "travel", first, kWidth - 10, kHeight - 5, last);
   std::string sigmas, dots;
-  for (std::size_t i = 0; i < report.outcome.rows.size(); ++i) {
-    const Estimate* estimate = find_estimate(report.outcome.rows[i], name);
+  for (std::size_t i = 0; i < report.result.rows.size(); ++i) {
+    const Estimate* estimate = find_estimate(report.result.rows[i], name);
     if (!estimate || !estimate->value) continue;
-    const double at = x(by_frame ? static_cast<double>(i) : report.outcome.rows[i].travel),
+    const double at = x(by_frame ? static_cast<double>(i) : report.result.rows[i].travel),
                  sigma = estimate->sigma.value_or(0);
     fmt::format_to(std::back_inserter(dots), "M{:.1f} {:.1f}h0", at, y(*estimate->value));
     fmt::format_to(std::back_inserter(sigmas), "M{0:.1f} {1:.1f}V{2:.1f}", at, y(*estimate->value - sigma),
@@ -152,16 +158,14 @@ std::string track_chart(const MeasureReport& report, const std::string& name) {
 double badness(const MeasureReport& report, std::size_t i) {
   double worst = 0;
   for (const char* name : {"vertical_wear", "side_wear", "corner45_wear", "tread_wear", "hollow"}) {
-    const Estimate* estimate = find_estimate(report.outcome.rows[i], name);
+    const Estimate* estimate = find_estimate(report.result.rows[i], name);
     if (estimate && estimate->value) worst = std::max(worst, *estimate->value);
   }
-  return worst + (report.outcome.verdicts[i] == "fail"    ? 1e6
-                  : report.outcome.rows[i].status != "ok" ? -1
-                                                          : 0);
+  return worst + (report.result.verdicts[i] == "fail" ? 1e6 : report.result.rows[i].status != "ok" ? -1 : 0);
 }
 
 std::vector<std::size_t> worst_first(const MeasureReport& report) {
-  std::vector<std::size_t> order(report.outcome.rows.size());
+  std::vector<std::size_t> order(report.result.rows.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return badness(report, a) > badness(report, b); });
@@ -182,14 +186,14 @@ std::string link_text(const FrameLinks& links, std::int64_t frame) {
 std::string worst_table(const MeasureReport& report, const std::vector<std::size_t>& order,
                         const FrameLinks& links) {
   std::string html = "<table><tr><th>frame</th><th>travel</th>";
-  const std::vector<std::string> names = estimate_names(report.arguments.kind);
+  const std::vector<std::string> names = estimate_names(report.job.kind);
   for (const std::string& name : names) html += "<th>" + name + "</th>";
   html += fmt::format("<th>verdict</th><th>status</th>{}</tr>", links.empty() ? "" : "<th>pictures</th>");
   for (std::size_t k = 0; k < std::min(kWorst, order.size()); ++k) {
-    const MeasuredFrame& row = report.outcome.rows[order[k]];
+    const MeasuredFrame& row = report.result.rows[order[k]];
     html += fmt::format("<tr><td><a href=\"#f{0}\">{0}</a></td><td>{1:g}</td>", row.frame, row.travel);
     for (const std::string& name : names) html += cell(find_estimate(row, name));
-    const std::string& verdict = report.outcome.verdicts[order[k]];
+    const std::string& verdict = report.result.verdicts[order[k]];
     html += fmt::format("<td class=\"{0}\">{0}</td><td>{1}</td>", verdict, escaped(row.status));
     if (!links.empty()) html += "<td>" + link_text(links, row.frame) + "</td>";
     html += "</tr>";
@@ -202,19 +206,20 @@ std::set<std::size_t> drawn_sections(const MeasureReport& report, const std::vec
   constexpr std::size_t kEven = 12;
   std::set<std::size_t> shown(order.begin(),
                               order.begin() + static_cast<std::ptrdiff_t>(std::min(kWorst, order.size())));
-  for (std::size_t k = 0; k < kEven; ++k) shown.insert(k * (report.outcome.rows.size() - 1) / (kEven - 1));
+  for (std::size_t k = 0; k < kEven; ++k) shown.insert(k * (report.result.rows.size() - 1) / (kEven - 1));
   return shown;
 }
 
 /// Of a track: the left rail, then the right one.
 std::string section_figure(const MeasureReport& report, std::size_t i, const FrameLinks& links) {
   constexpr int kWidthPx = 360;
-  const MeasuredFrame& row = report.outcome.rows[i];
-  const SectionDrawing drawing =
-      draw_section(report.profiles[i], row.registration, report.references.at(row.travel));
+  const MeasuredFrame& row = report.result.rows[i];
+  const SectionDrawing drawing = draw_section(report.result.input.profiles[i], row.registration,
+                                              report.result.references.at(row.travel));
   std::string html = fmt::format("<figure id=\"f{}\">{}", row.frame, section_svg(drawing, kWidthPx));
   if (row.right_registration)
-    html += section_svg(draw_section(report.profiles[i], *row.right_registration, report.references.right()),
+    html += section_svg(draw_section(report.result.input.profiles[i], *row.right_registration,
+                                     report.result.references.right()),
                         kWidthPx);
   const std::string pictures = link_text(links, row.frame);
   return html + fmt::format("<figcaption>frame {}, travel {:g}: {} (x {:g}){}{}</figcaption></figure>",
@@ -223,18 +228,20 @@ std::string section_figure(const MeasureReport& report, std::size_t i, const Fra
 }
 
 FrameLinks links_of(const MeasureReport& report, const std::set<std::size_t>& shown) {
-  if (report.arguments.scan.empty()) return {};
+  if (report.scan_file.empty()) return {};
   std::vector<std::int64_t> frames;
-  for (const std::size_t i : shown) frames.push_back(report.outcome.rows[i].frame);
-  return frame_links(report.arguments.scan, report.arguments.rig, report.arguments.report, frames);
+  for (const std::size_t i : shown) frames.push_back(report.result.rows[i].frame);
+  return frame_links(report.scan_file.string(), report.job.rig.string(), report.page, frames);
 }
 
 }  // namespace
 
-std::string measure_report_html(const MeasureReport& report) {
-  const auto ok = std::count_if(report.outcome.rows.begin(), report.outcome.rows.end(),
+std::string measure_report_html(const MeasureJob& job, const MeasureResult& result,
+                                const std::filesystem::path& page, const std::filesystem::path& scan_file) {
+  const MeasureReport report{job, result, page, scan_file};
+  const auto ok = std::count_if(report.result.rows.begin(), report.result.rows.end(),
                                 [](const MeasuredFrame& r) { return r.status == "ok"; });
-  const auto failed = std::count(report.outcome.verdicts.begin(), report.outcome.verdicts.end(), "fail");
+  const auto failed = std::count(report.result.verdicts.begin(), report.result.verdicts.end(), "fail");
   const std::vector<std::size_t> order = worst_first(report);
   const std::set<std::size_t> shown = drawn_sections(report, order);
   const FrameLinks links = links_of(report, shown);
@@ -245,9 +252,9 @@ std::string measure_report_html(const MeasureReport& report) {
   html += fmt::format(
       "</style></head><body><h1>{} against {}</h1><p>{}: {} frames, {} measured completely, {} beyond a "
       "limit.</p>",
-      report.arguments.kind == ObjectKind::kRail ? "Rail" : "Wheel",
-      escaped(report.references.at(report.outcome.rows.front().travel).name()),
-      escaped(report.arguments.profiles), report.outcome.rows.size(), ok, failed);
+      report.job.kind == ObjectKind::kRail ? "Rail" : "Wheel",
+      escaped(report.result.references.at(report.result.rows.front().travel).name()),
+      escaped(report.job.profiles.string()), report.result.rows.size(), ok, failed);
   html += "<h2>Summary</h2>" + summary_table(report) +
           "<p>Lengths in mm, angles in degrees, areas in mm&sup2;.</p>";
   html += "<h2>Worst places first</h2>" + worst_table(report, order, links);

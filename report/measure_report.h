@@ -3,24 +3,17 @@
 // measure.html: one file, no network. What was measured along the track, worst places first, sections drawn.
 #pragma once
 
+#include <filesystem>
 #include <string>
-#include <vector>
 
-#include "measure/limits.h"
-#include "pipeline/measure_references.h"
+#include "pipeline/measure_job.h"
 
 namespace lightstripe {
 
-struct MeasureReport {
-  const MeasureArguments& arguments;
-  const std::vector<Profile>& profiles;
-  const MeasureOutcome& outcome;
-  const MeasureReferences& references;
-  const Limits& limits;
-  double max_overlap_gap_mm = 0;
-};
-
-/// Where the arguments name a scan, its pictures are linked to, as seen from the report's place.
-std::string measure_report_html(const MeasureReport& report);
+/// `page` is where the text will be written, and `scan_file` (may be empty) names the scan that the sections
+/// are of: its pictures are linked to, as seen from the page.
+std::string measure_report_html(const MeasureJob& job, const MeasureResult& result,
+                                const std::filesystem::path& page,
+                                const std::filesystem::path& scan_file = {});
 
 }  // namespace lightstripe

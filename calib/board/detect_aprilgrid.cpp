@@ -3,12 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <opencv2/aruco.hpp>
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 #include <optional>
 
+#include "calib/board/aruco_dictionary.h"
 #include "calib/board/board_reasons.h"
 #include "calib/board/detect_circles.h"
 #include "calib/observations.h"
@@ -28,7 +29,7 @@ struct Tag {
 
 /// Kalibr prints tags with a border of two bits, the makers of the family with one.
 std::vector<Tag> find_tags(const cv::Mat& gray, int border_bits, int count) {
-  const auto dictionary = cv::aruco::getPredefinedDictionary(cv::aruco::DICT_APRILTAG_36h11);
+  const auto dictionary = aruco_dictionary("DICT_APRILTAG_36h11");
   const auto parameters = cv::aruco::DetectorParameters::create();
   parameters->markerBorderBits = border_bits;
   std::vector<std::vector<cv::Point2f>> markers;

@@ -148,7 +148,7 @@ Camera kalibr_camera(const YamlNode& root, const std::string& name, const YamlPl
 }
 
 Camera rig_camera(const std::string& path, const std::string& name) {
-  const Rig rig = read_rig(path);
+  const Rig rig = read_rig(path, RigUse::kCameras);
   for (const Sensor& sensor : rig.sensors)
     if (name.empty() || sensor.name == name) return sensor.camera;
   throw Error(path, "has no sensor " + name, "give one of its names behind the #");
