@@ -4,8 +4,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
+#include "calib/adjust/hand_eye.h"
 #include "calib/adjust/joint_adjustment.h"
 #include "calib/adjust/rig_frame.h"
 #include "calib/adjust/session_views.h"
@@ -79,6 +81,28 @@ void take_rig(const SessionViews& session, const JointAdjustment& adjustment,
   result.rig.motion = rig.motion;
 }
 
+/// Where the rig sits on the tool, if poses of the tool were given.
+void take_tool(const CalibrationObservations& observations, const SessionViews& session,
+               const JointAdjustment& adjustment, CalibrationResult& result) {
+  if (!observations.tool_poses) return;
+  std::vector<ToolView> views;
+  for (const auto& tool : *observations.tool_poses) {
+    const auto pose = std::find(session.poses.begin(), session.poses.end(), tool.pose);
+    const auto index = static_cast<int>(pose - session.poses.begin());
+    const bool seen = std::any_of(session.views.begin(), session.views.end(),
+                                  [&](const auto& view) { return view.pose == index; });
+    if (pose != session.poses.end() && seen)
+      views.push_back({tool.pose, tool.base_from_tool,
+                       adjustment.state.first_from_board[static_cast<std::size_t>(index)]});
+  }
+  const HandEye found = find_hand_eye(views);
+  const Rigid3 rig_from_first = result.rig.sensors.front().rig_from_camera;
+  result.rig.tool_from_rig = found.tool_from_first * rig_from_first.inverse();
+  append(result.rig.quality.warnings, found.left_out);
+  result.rig.quality.sigma["tool.rotation_deg"] = found.rotation_sigma_deg;
+  result.rig.quality.sigma["tool.translation_mm"] = found.translation_sigma_mm;
+}
+
 /// Predicted errors, cross-validation and what else the adjustment tells of itself.
 void assess(const SessionViews& session, const JointAdjustment& adjustment,
             const std::vector<BoardSpread>& spreads, const Eigen::Vector3d& up,
@@ -118,6 +142,7 @@ void calibrate(const CalibrationObservations& observations, const CalibrationOpt
 
   take_rig(session, adjustment, spreads, observations.up, options, result);
   assess(session, adjustment, spreads, observations.up, options, result);
+  take_tool(observations, session, adjustment, result);
   refuse_parallel_lasers(session, spreads);
   refuse_extrapolation(session, spreads, options);
   refuse_uncertain_section(adjustment, result.rig.quality.section_shape_sigma_mm);

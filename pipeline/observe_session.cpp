@@ -8,7 +8,9 @@
 #include <array>
 #include <map>
 
+#include "calib/board/straight_lines.h"
 #include "core/error.h"
+#include "extraction/extract_stripes.h"
 #include "io/camera_file.h"
 #include "io/images.h"
 #include "io/tables.h"
@@ -47,6 +49,7 @@ std::vector<ViewTask> sensor_tasks(const Session& session, int index, std::vecto
     for (const auto& file : list_files(session.folder, *sensor.laser))
       lasers[matched_text(*sensor.laser, file)] = file;
   std::vector<ViewTask> tasks;
+  if (sensor.board.empty()) return tasks;
   for (const auto& file : list_files(session.folder, sensor.board)) {
     ViewTask task;
     task.sensor = index;
@@ -180,6 +183,25 @@ CalibrationObservations empty_observations(const Session& session) {
   return observations;
 }
 
+/// The tool's pose for each board picture that the table names; a table that names none of them is refused.
+std::optional<std::vector<ToolPose>> poses_of_tool(const Session& session,
+                                                   const std::vector<ViewTask>& tasks) {
+  if (!session.tool_poses) return std::nullopt;
+  const fs::path table = session.folder / *session.tool_poses;
+  const auto by_image = read_image_poses(table);
+  std::map<std::string, Rigid3> by_pose;
+  for (const auto& task : tasks) {
+    const auto row = by_image.find(task.board.filename().string());
+    if (row != by_image.end() && !task.motion) by_pose[task.pose] = row->second;
+  }
+  if (by_pose.empty())
+    throw Error(table.string(), "names none of the session's board pictures",
+                "give their file names in the column image");
+  std::vector<ToolPose> poses;
+  for (const auto& [pose, base_from_tool] : by_pose) poses.push_back({pose, base_from_tool});
+  return poses;
+}
+
 /// Where the pictures agree on squares of another number than the session's, they say so together.
 void note_common_size(const Session& session, std::vector<ViewResult>& results) {
   constexpr int kMin = 3;
@@ -239,6 +261,42 @@ void check_size(SensorObservations& sensor, const ViewTask& task, const ViewResu
                 "give the camera of this picture size");
 }
 
+/// The board on the bed, and the lines in the pictures of known heights; pictures lie beside the table.
+void observe_bed(const Session& session, std::size_t index, const ExtractionOptions& extraction,
+                 SessionObservations& seen) {
+  const SessionSensor& sensor = session.sensors[index];
+  if (!sensor.bed) return;
+  const fs::path bed = session.folder / *sensor.bed, table = session.folder / *sensor.heights;
+  Image8 image;
+  const BoardDetection board = find_board(bed, session, image);
+  if (!board.found)
+    throw Error(bed.string(), "shows no board: " + board.reason,
+                "take the picture with the board lying flat on the bed, laser off");
+  SensorObservations& observed = seen.observations.sensors[index];
+  observed.width = image.width;
+  observed.height = image.height;
+  if (observed.given_camera && observed.given_camera->camera.width == 0) {
+    observed.given_camera->camera.width = image.width;
+    observed.given_camera->camera.height = image.height;
+  }
+  BedObservations result;
+  result.board.image = bed.filename().string();
+  result.board.corners = board.corners;
+  for (const auto& [name, height] : read_image_travel(table, "height_mm")) {
+    const Image8 picture = read_image(table.parent_path() / name, session.channel);
+    if (picture.width != image.width || picture.height != image.height)
+      throw Error((table.parent_path() / name).string(), "has another size than " + bed.string(),
+                  "give images of one camera and one setting");
+    ++seen.images;
+    HeightView view{name, height, straight_lines(extract_stripes(picture, extraction).stripes)};
+    if (view.lines.empty())
+      seen.rejected.push_back({sensor.name, name, "no straight line; is the laser on in this picture?"});
+    else
+      result.heights.push_back(std::move(view));
+  }
+  observed.bed = std::move(result);
+}
+
 }  // namespace
 
 SessionObservations observe_session(const Session& session, const ExtractionOptions& extraction,
@@ -262,8 +320,11 @@ SessionObservations observe_session(const Session& session, const ExtractionOpti
                 "run it again");
 
   note_common_size(session, results);
+  const auto tool_poses = poses_of_tool(session, tasks);
   seen.observations = empty_observations(session);
+  seen.observations.tool_poses = tool_poses;
   if (seen.observations.target.circle_mm == 0) seen.observations.target.circle_mm = common_circle_mm(results);
+  for (std::size_t i = 0; i < session.sensors.size(); ++i) observe_bed(session, i, extraction, seen);
   for (std::size_t i = 0; i < tasks.size(); ++i) {
     SensorObservations& sensor = seen.observations.sensors[static_cast<std::size_t>(tasks[i].sensor)];
     check_size(sensor, tasks[i], results[i]);

@@ -220,7 +220,8 @@ std::optional<SeenStripePoint> seen_stripe_point(const SessionViews& session, co
   const auto& sensor = state.sensors[static_cast<std::size_t>(view.sensor)];
   const Rigid3 cam_from_board =
       sensor.cam_from_first * state.first_from_board[static_cast<std::size_t>(view.pose)];
-  const auto place = seen_place(session.target, sensor.camera, cam_from_board, pixel);
+  const auto place = view.height_mm ? seen_place_on_top(sensor.camera, cam_from_board, *view.height_mm, pixel)
+                                    : seen_place(session.target, sensor.camera, cam_from_board, pixel);
   if (!place) return std::nullopt;
   const auto frame =
       stripe_crossing(sensor.camera, tangent_plane(*place, state.board_warp_mm, cam_from_board),

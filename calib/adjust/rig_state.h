@@ -45,6 +45,9 @@ struct SessionView {
   bool laser_apart = false;                       ///< the stripe was seen in a picture of its own
   std::vector<Eigen::Vector2d> corners;           ///< px; see is_seen()
   std::vector<std::vector<StripePoint>> stripes;  ///< for each laser plane; thinned to independent points
+  /// The laser on a top that lies this high over the pose's board, towards the camera; no corners.
+  std::optional<double> height_mm;
+  std::vector<std::vector<StripePoint>> lines;  ///< where a height is given: candidates for stripes[0]
 };
 
 struct SessionViews {

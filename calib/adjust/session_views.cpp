@@ -72,8 +72,27 @@ bool seen_once(SessionViews& result, SessionView& added) {
   return true;
 }
 
+/// The board on the bed as a pose of its own, and the pictures of known heights over it.
+void add_bed(SessionViews& result, const SensorObservations& sensor, int index) {
+  auto board = measured(sensor.bed->board, index, result.target, sensor.laser_planes);
+  board.pose = pose_index(result.poses, "bed of " + sensor.name);
+  for (const auto& height : sensor.bed->heights) {
+    SessionView view;
+    view.sensor = index;
+    view.pose = board.pose;
+    view.image = height.image;
+    view.corners.assign(board.corners.size(), unseen_corner());
+    view.stripes.resize(static_cast<std::size_t>(sensor.laser_planes));
+    view.height_mm = height.height_mm;
+    view.lines = height.lines;
+    result.views.push_back(std::move(view));
+  }
+  result.views.push_back(std::move(board));
+}
+
 void add_sensor(SessionViews& result, const SensorObservations& sensor, int index) {
-  if (static_cast<int>(sensor.views.size()) < kMinViews)
+  const bool camera_is_known = sensor.given_camera && sensor.given_camera->fixed;
+  if (static_cast<int>(sensor.views.size()) < kMinViews && !(sensor.bed && camera_is_known))
     throw NotUsable(
         fmt::format("sensor {}: the board was found in {} images only; at least {} are needed, take 15 to 30 "
                     "with the board tilted by 20 to 45 degrees to different sides",
@@ -89,6 +108,7 @@ void add_sensor(SessionViews& result, const SensorObservations& sensor, int inde
                         "two views of sensor " + sensor.name + " have the pose " + view.pose);
     if (seen_once(result, added)) result.views.push_back(std::move(added));
   }
+  if (sensor.bed) add_bed(result, sensor, index);
 }
 
 void add_motion(SessionViews& result, const MotionObservations& motion) {

@@ -56,7 +56,7 @@ std::vector<SensorQuality> sensor_quality(const SessionViews& session, const std
     SensorQuality quality{session.sensor_names[s], sums[s].board_rms(), sums[s].stripe_rms(), 0, 0};
     for (const auto& view : session.views) {
       if (view.sensor != static_cast<int>(s)) continue;
-      ++quality.board_views;
+      quality.board_views += !view.height_mm;
       quality.stripe_views +=
           std::any_of(view.stripes.begin(), view.stripes.end(), [](const auto& x) { return !x.empty(); });
     }

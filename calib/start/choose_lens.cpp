@@ -37,7 +37,9 @@ CameraViews camera_views(const InitialValues& values, int sensor, std::size_t fo
   result.state.sensors.push_back({values.state.sensors[s].camera, {}, {}});
   std::size_t seen = 0;
   for (std::size_t i = 0; i < all.views.size(); ++i) {
-    if (all.views[i].sensor != sensor || all.views[i].pose < 0 || seen++ % 2 != fold) continue;
+    const bool shows_board =
+        all.views[i].sensor == sensor && all.views[i].pose >= 0 && !all.views[i].height_mm;
+    if (!shows_board || seen++ % 2 != fold) continue;
     SessionView view;
     view.pose = static_cast<int>(result.state.first_from_board.size());
     view.corners = all.views[i].corners;
@@ -147,8 +149,9 @@ LensChoice choose_lens(const InitialValues& values, int sensor, const Calibratio
   LensChoice choice;
   choice.sensor = values.session.sensor_names[static_cast<std::size_t>(sensor)];
   choice.lens = LensModel::kBrown4;
-  const auto views = std::count_if(values.session.views.begin(), values.session.views.end(),
-                                   [&](const auto& v) { return v.sensor == sensor && v.pose >= 0; });
+  const auto views =
+      std::count_if(values.session.views.begin(), values.session.views.end(),
+                    [&](const auto& v) { return v.sensor == sensor && v.pose >= 0 && !v.height_mm; });
   if (static_cast<std::size_t>(views) < kMinViews) return choice;
   std::array<std::array<std::vector<double>, 2>, kCandidates.size()> halves;
   const auto try_lens = [&](std::size_t i) {

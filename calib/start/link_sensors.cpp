@@ -26,11 +26,11 @@ std::vector<std::vector<Rigid3>> candidates(const InitialValues& values, int a, 
   const std::size_t turns = corner_orders(values.session.target).size();
   std::map<int, std::size_t> seen_by_a;  // pose -> view
   for (std::size_t i = 0; i < views.size(); ++i)
-    if (views[i].sensor == a && views[i].pose >= 0) seen_by_a[views[i].pose] = i;
+    if (views[i].sensor == a && views[i].pose >= 0 && !views[i].height_mm) seen_by_a[views[i].pose] = i;
   std::vector<std::vector<Rigid3>> result;
   for (std::size_t i = 0; i < views.size(); ++i) {
     const auto in_a = seen_by_a.find(views[i].pose);
-    if (views[i].sensor != b || views[i].pose < 0 || in_a == seen_by_a.end()) continue;
+    if (views[i].sensor != b || views[i].pose < 0 || views[i].height_mm || in_a == seen_by_a.end()) continue;
     result.emplace_back();
     for (std::size_t k = 0; k < turns; ++k)
       result.back().push_back(values.cam_from_board[i] * board_turn(values.session.target, k) *
@@ -143,7 +143,7 @@ void gather_poses(InitialValues& values) {
   int compared = 0, contradicting = 0;
   for (std::size_t i = 0; i < m.views.size(); ++i) {
     auto& view = m.views[i];
-    if (view.pose < 0) continue;
+    if (view.pose < 0 || view.height_mm) continue;
     auto& pose = poses[static_cast<std::size_t>(view.pose)];
     if (!pose) {
       const auto& sensor = values.state.sensors[static_cast<std::size_t>(view.sensor)];

@@ -9,6 +9,7 @@
 #include <opencv2/calib3d.hpp>
 #include <span>
 
+#include "calib/adjust/board_surface.h"
 #include "calib/start/board_pose.h"
 #include "calib/start/initial_values.h"
 
@@ -189,6 +190,25 @@ Rigid3 pose_of(const SessionView& view, const Target& target, const Camera& came
   return rounded(*pose);
 }
 
+bool knows_heights(const SessionViews& session, std::size_t sensor) {
+  return std::any_of(session.views.begin(), session.views.end(), [&](const SessionView& view) {
+    return view.sensor == static_cast<int>(sensor) && view.height_mm;
+  });
+}
+
+/// Pictures of known heights stand on the bed's board.
+void place_heights(InitialValues& values, std::vector<bool>& keep) {
+  const auto& views = values.session.views;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    if (!views[i].height_mm) continue;
+    for (std::size_t k = 0; k < views.size(); ++k) {
+      if (views[k].pose != views[i].pose || views[k].height_mm || !keep[k]) continue;
+      values.cam_from_board[i] = raised(values.cam_from_board[k], *views[i].height_mm);
+      keep[i] = true;
+    }
+  }
+}
+
 }  // namespace
 
 void start_cameras(InitialValues& values) {
@@ -199,11 +219,12 @@ void start_cameras(InitialValues& values) {
     std::vector<std::size_t> indices;
     std::vector<const SessionView*> views;
     for (std::size_t i = 0; i < m.views.size(); ++i) {
-      if (m.views[i].sensor != static_cast<int>(sensor) || m.views[i].pose < 0) continue;
+      if (m.views[i].sensor != static_cast<int>(sensor) || m.views[i].pose < 0 || m.views[i].height_mm)
+        continue;
       indices.push_back(i);
       views.push_back(&m.views[i]);
     }
-    refuse_single_pose(views, m.sensor_names[sensor], m.image_sizes[sensor]);
+    if (!knows_heights(m, sensor)) refuse_single_pose(views, m.sensor_names[sensor], m.image_sizes[sensor]);
     if (m.given_cameras[sensor]) {
       values.state.sensors.push_back({m.given_cameras[sensor]->camera, {}, {}});
       for (const std::size_t i : indices) {
@@ -227,6 +248,7 @@ void start_cameras(InitialValues& values) {
     const auto& camera = values.state.sensors[static_cast<std::size_t>(m.views[i].sensor)].camera;
     values.cam_from_board[i] = pose_of(m.views[i], m.target, camera);
   }
+  place_heights(values, keep);
   keep_views(values, keep);
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "calib/start/height_lines.h"
 #include "calib/start/initial_values.h"
 #include "calib/start/pairing_faults.h"
 #include "calib/start/stripe_planes.h"
@@ -98,6 +99,7 @@ void start_laser_planes(InitialValues& values) {
     std::size_t planes = 0;
     for (const auto& view : values.session.views)
       if (view.sensor == static_cast<int>(sensor)) planes = std::max(planes, view.stripes.size());
+    if (planes == 1) choose_height_lines(values, static_cast<int>(sensor));
     if (planes > 1) label_stripes(values, static_cast<int>(sensor), planes);
     for (std::size_t plane = 0; plane < planes; ++plane)
       values.state.sensors[sensor].laser_planes.push_back(

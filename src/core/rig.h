@@ -67,6 +67,7 @@ struct RigQuality {
 struct Rig {
   std::vector<Sensor> sensors;
   Motion motion;
+  std::optional<Rigid3> tool_from_rig{};  ///< where the rig sits on a robot's or CMM's tool, if it does
   RigQuality quality;
 };
 

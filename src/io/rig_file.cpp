@@ -146,6 +146,8 @@ Rig read_rig(const std::filesystem::path& path, RigUse use) {
                  "give each its own name");
   }
   if (fields.motion) rig.motion = checked_motion(*fields.motion, place / "motion");
+  if (fields.tool_from_rig)
+    rig.tool_from_rig = checked_transform(*fields.tool_from_rig, place / "tool_from_rig");
   rig.quality = fields.quality.quality;
   return rig;
 }

@@ -26,6 +26,8 @@ struct SessionSensor {
   bool camera_fixed = true;                 ///< false: they are start values only
   bool no_laser = false;                    ///< `laser: none`: the boards calibrate the camera alone
   std::optional<std::string> board_only{};  ///< file pattern of further boards, without laser
+  std::optional<std::string> bed{};         ///< picture of one board lying flat on the bed
+  std::optional<std::string> heights{};     ///< table image,height_mm: the laser on blocks over the bed
 };
 
 struct SessionMotion {
@@ -43,7 +45,8 @@ struct Session {
   std::string aprilgrid_file{};  ///< Kalibr's description of the target, as the session names it
   std::vector<SessionSensor> sensors;
   std::optional<SessionMotion> motion;
-  Eigen::Vector3d up{0, -1, 0};  ///< hint, first sensor's camera frame
+  std::optional<std::string> tool_poses{};  ///< motion of type poses: its file, image,qw,qx,qy,qz,x,y,z
+  Eigen::Vector3d up{0, -1, 0};             ///< hint, first sensor's camera frame
   Channel channel = Channel::kAuto;
   YamlSubtree extraction;   ///< any option of the extraction
   YamlSubtree calibration;  ///< any option of the calibration
