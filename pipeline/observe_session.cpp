@@ -8,6 +8,7 @@
 #include <array>
 #include <map>
 
+#include "calib/board/board_shift.h"
 #include "calib/board/straight_lines.h"
 #include "core/error.h"
 #include "extraction/extract_stripes.h"
@@ -117,6 +118,33 @@ BoardDetection find_board(const fs::path& file, const Session& session, Image8& 
   return detection;
 }
 
+/// Whether the board stood still within the pair, judged where it is seen best; empty if so.
+std::string moved_within_pair(const ViewTask& task, const Session& session, const Image8& board,
+                              const std::vector<Eigen::Vector2d>& corners) {
+  constexpr double kMovedPx = 1;
+  const bool automatic = session.channel == Channel::kAuto || enum_name(session.channel).ends_with("-excess");
+  const Image8 laser = read_image(task.laser, automatic ? Channel::kGray : session.channel);
+  const auto shift = board_shift_px(laser, board, corners, session.target);
+  if (!shift || *shift <= kMovedPx) return "";
+  return fmt::format("the board moved by {:.1f} px between the picture without laser and that with it",
+                     *shift);
+}
+
+/// The stripe of a view; `laser` shows it in `channel`, `board` the board as it was found.
+StripeOnBoard stripe_of(const ViewTask& task, const Session& session, const Image8& laser,
+                        const Image8& board, Channel channel, const std::vector<Eigen::Vector2d>& corners,
+                        const Target& target, const ExtractionOptions& extraction) {
+  const int planes = session.sensors[static_cast<std::size_t>(task.sensor)].laser_planes;
+  if (task.laser.empty())
+    return find_stripe_on_board(laser, ImageView8(), corners, target, planes, extraction);
+  StripeOnBoard moved;
+  moved.reason = moved_within_pair(task, session, board, corners);
+  if (!moved.reason.empty()) return moved;
+  // The difference of the pair needs the same channel in both.
+  const Image8 dark = read_image(task.board, channel);
+  return find_stripe_on_board(laser, dark.view(), corners, target, planes, extraction);
+}
+
 ViewResult observe_view(const ViewTask& task, const Session& session, const ExtractionOptions& extraction) {
   const SessionSensor& sensor = session.sensors[static_cast<std::size_t>(task.sensor)];
   ViewResult result;
@@ -145,11 +173,8 @@ ViewResult observe_view(const ViewTask& task, const Session& session, const Extr
                   fmt::format("is {} x {} px, its board image {} x {}", laser.width, laser.height,
                               board.width, board.height),
                   "give images of one camera and one setting");
-    // The difference of the pair needs the same channel in both; a single picture has nothing to subtract.
-    const Image8 dark = single ? Image8() : read_image(task.board, channel);
     const StripeOnBoard stripe =
-        find_stripe_on_board(laser, single ? ImageView8() : dark.view(), detection.corners, target,
-                             sensor.laser_planes, extraction);
+        stripe_of(task, session, laser, board, channel, view.corners, target, extraction);
     view.stripes = stripe.planes;
     result.picture.stripes = stripe.planes;
     if (!stripe.reason.empty()) result.picture.reason = "stripe: " + stripe.reason;

@@ -50,8 +50,10 @@ std::string describe_calibration(const SessionObservations& seen, const Calibrat
   text += describe_lenses(result.summary.lenses);
   const RigQuality& quality = result.rig.quality;
   for (const auto& s : quality.sensors)
-    text += fmt::format("{}: corners {:.3f} px rms in {} views, stripe {:.3f} px rms in {} views\n", s.name,
-                        s.board_rms_px, s.board_views, s.stripe_rms_px, s.stripe_views);
+    text += fmt::format("{}: corners {:.3f} px rms in {} views{}\n", s.name, s.board_rms_px, s.board_views,
+                        s.stripe_views > 0 ? fmt::format(", stripe {:.3f} px rms in {} views",
+                                                         s.stripe_rms_px, s.stripe_views)
+                                           : ", no stripe");
   if (quality.section_shape_sigma_mm > 0)
     text += fmt::format("predicted error of a section: {} mm in shape, {} mm in place\n",
                         millimetres(quality.section_shape_sigma_mm),

@@ -42,8 +42,10 @@ void refuse_degenerate(const PlaneFit& fit, const std::vector<const StripeInSpac
 void refuse_minority(const InitialValues& values, const std::vector<StripeInSpace>& stripes,
                      std::size_t agreeing, const std::string& name) {
   const bool enough = agreeing >= std::min(kMinAgreeing, stripes.size()) && 2 * agreeing > stripes.size();
-  if (enough) return;
+  const bool clearly = enough && 4 * agreeing >= 3 * stripes.size();
+  if (clearly) return;
   const std::string guess = guess_pairing(values, stripes, agreeing);
+  if (enough && guess.empty()) return;  // a better explanation is needed to doubt the larger part
   throw NotUsable(fmt::format(
       "{}: {} of {} stripes lie in one plane; {}", name,
       agreeing == 0 ? "none" : fmt::format("only {}", agreeing), stripes.size(),
@@ -60,11 +62,11 @@ void leave_out(InitialValues& values, const std::vector<StripeInSpace>& stripes,
     const bool agrees = std::find(kept.begin(), kept.end(), &stripe) != kept.end();
     const bool crosses = stripe_line(board_plane(values.cam_from_board[stripe.view]), laser).has_value();
     if (agrees && crosses) continue;
-    view.stripes[plane].clear();
     values.warnings.push_back(
         agrees ? fmt::format("{}: stripe left out, the board is parallel to the laser plane", view.image)
                : fmt::format("{}: stripe left out, it lies {:.1f} mm off the laser plane of the others{}",
                              view.image, distance_to(laser, stripe), guess_partner(values, stripe, laser)));
+    view.stripes[plane].clear();
   }
 }
 

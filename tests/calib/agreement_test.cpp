@@ -20,7 +20,7 @@ CalibrationObservations session(int travel_steps = 0, int poses = 12) {
 }
 
 CalibrationResult calibrated(const CalibrationObservations& observations, CalibrationOptions options = {}) {
-  options.lens = LensModel::kBrown5;
+  options.lens = LensModel::kBrown4;
   return calibrate_rig(observations, options);
 }
 
