@@ -68,7 +68,9 @@ void add_circles(BoardDrawing& drawing, const Target& target) {
 std::string description(const Target& t, const std::string& aprilgrid_file) {
   const auto type = enum_name(t.type);
   if (t.type == TargetType::kAprilgrid)
-    return fmt::format("target: {{type: {}, file: {}}}", type, aprilgrid_file);
+    return fmt::format(
+        "target: {{type: {}, file: {}}} (tagCols: {}, tagRows: {}, tagSize: {:g}, tagSpacing: {:g})", type,
+        aprilgrid_file, t.columns / 2, t.rows / 2, t.marker_mm / 1000, t.tag_gap_mm / t.marker_mm);
   if (t.has_circles())
     return fmt::format("target: {{type: {}, grid: [{}, {}], pitch: {:g}, diameter: {:.4g}}}", type, t.columns,
                        t.rows, t.pitch_x, t.circle_mm);

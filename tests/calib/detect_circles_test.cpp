@@ -127,7 +127,7 @@ double error_px(const Target& target) {
     const auto found = detect_board(rendered(target, pose, static_cast<std::uint64_t>(i)), unknown);
     EXPECT_TRUE(found.found) << found.reason;
     if (!found.found) return 1e9;
-    if (target.has_circles()) EXPECT_NEAR(found.circle_mm, target.circle_mm, 0.03 * target.circle_mm);
+    EXPECT_NEAR(found.circle_mm, target.circle_mm, 0.03 * target.circle_mm);
     double best = 1e300;
     for (const bool reversed : {false, true}) {  // a grid of equal circles may be listed from either end
       double squares = 0;
