@@ -21,8 +21,7 @@ std::string slack(std::int64_t num_points, std::size_t occurrences) {
 /// One line that people and programs read; CloudCompare's "global shift" is the same with other signs.
 std::string origin_comment(const CloudOrigin& origin) {
   if (origin.isZero()) return "";
-  return fmt::format("comment origin {} {} {} (add it to x y z; as CloudCompare's global shift: {} {} {})
-",
+  return fmt::format("comment origin {} {} {} (add it to x y z; as CloudCompare's global shift: {} {} {})\n",
                      origin.x(), origin.y(), origin.z(), -origin.x(), -origin.y(), -origin.z());
 }
 
@@ -31,44 +30,19 @@ std::string origin_comment(const CloudOrigin& origin) {
 /// OpenNI for these few lines. The tests read both with PCL.
 std::string ply_header(std::int64_t num_points, const CloudOrigin& origin) {
   return fmt::format(
-      "ply
-format binary_little_endian 1.0
-comment lightstripe, mm{}
-{}element vertex {}
-"
-      "property float x
-property float y
-property float z
-property float intensity
-"
-      "property int frame
-property int sensor
-property int line
-property float sigma
-end_header
-",
+      "ply\nformat binary_little_endian 1.0\ncomment lightstripe, mm{}\n{}element vertex {}\n"
+      "property float x\nproperty float y\nproperty float z\nproperty float intensity\n"
+      "property int frame\nproperty int sensor\nproperty int line\nproperty float sigma\nend_header\n",
       slack(num_points, 1), origin_comment(origin), num_points);
 }
 
 /// The viewpoint carries the origin in full precision, which PCL's 32-bit numbers would not.
 std::string pcd_header(std::int64_t num_points, const CloudOrigin& origin) {
   return fmt::format(
-      "# .PCD v0.7 - Point Cloud Data file format
-VERSION 0.7
-"
-      "FIELDS x y z intensity frame sensor line sigma
-SIZE 4 4 4 4 4 4 4 4
-TYPE F F F F I I I F
-"
-      "COUNT 1 1 1 1 1 1 1 1
-WIDTH {0}
-HEIGHT 1
-VIEWPOINT {2} {3} {4} 1 0 0 0
-POINTS {0}
-"
-      "# lightstripe, mm{1}
-DATA binary
-",
+      "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\n"
+      "FIELDS x y z intensity frame sensor line sigma\nSIZE 4 4 4 4 4 4 4 4\nTYPE F F F F I I I F\n"
+      "COUNT 1 1 1 1 1 1 1 1\nWIDTH {0}\nHEIGHT 1\nVIEWPOINT {2} {3} {4} 1 0 0 0\nPOINTS {0}\n"
+      "# lightstripe, mm{1}\nDATA binary\n",
       num_points, slack(num_points, 2), origin.x(), origin.y(), origin.z());  // WIDTH and POINTS
 }
 

@@ -63,7 +63,7 @@ INSTANTIATE_TEST_SUITE_P(Uic519, ConicityColumns,
                          ::testing::Values(Case{"E1", "A", "1435", "0"}, Case{"E2", "B", "1435", "0"},
                                            Case{"E3", "H", "1435.16", "0"}, Case{"E4", "I", "1435", "0"},
                                            Case{"E5", "A", "1435", "-1"}, Case{"E7", "H", "1435.16", "-1"}),
-                         [](const auto& info) { return std::string(info.param.name); });
+                         [](const auto& one) { return std::string(one.param.name); });
 
 }  // namespace
 }  // namespace lightstripe
