@@ -12,7 +12,7 @@ struct FollowTuning {
   /// Octaves: a line whose own scale is farther off than this is followed again at it.
   double refollow_scale = 0.4;
   /// Octaves: the same for the first line of a scale, which decides it for those that come after.
-  double first_scale = 0.13;
+  double first_scale = 0.07;
   /// Octaves: no line is followed again farther off than this from the scale of its seed.
   double farthest_scale = 0.75;
   /// Of the length before: a line followed again must keep so much, else the first try stands.

@@ -19,8 +19,8 @@ constexpr double kTopNoise = 0.62;
 /// Of the smaller over the larger drop: an edge drops on one side only; a line on a step of its own height
 /// has 0.33.
 constexpr double kLeastFlanks = 0.3;
-/// Of the mean height of a crowd of edges.
-constexpr double kOverEdges = 1.2;
+/// Of the mean height of a crowd of edges, and how long they are together against the lines to be a crowd.
+constexpr double kOverEdges = 1.2, kManyEdges = 0.25;
 /// Of min_length, where the whole evidence is judged as well.
 constexpr double kShortest = 0.5, kColouredEvidence = 0.4, kGreyEvidence = 0.6;
 
@@ -216,7 +216,7 @@ LineFacts facts_of(Trial& t, const LineSet& lines, const LineRange& r) {
 /// Length and width tests, which need no other line; a short line has to be the more regular.
 bool is_stripe_like(const Trial& t, const LineFacts& line) {
   // Lines of their own scale are judged by length and brightness together, later on.
-  const double least = t.width_slack > 1 ? kShortest : 1.0;
+  const double least = t.width_slack > 1 && line.colour_known ? kShortest : 1.0;
   if (line.length < least * t.options.min_length * t.full_width || line.bridged_share > 0.5) return false;
   if (line.flanks < kLeastFlanks || line.coloured_share < 0.5) return false;
   const double ratio = std::max(line.width, 1e-3) / t.full_width;
@@ -364,13 +364,15 @@ void filter_lines(ImageView<T> image, const DerivativeKernels& kernels, double n
 }
 
 void drop_faint_lines(std::span<const FilteredLines> groups, double noise, const LineFilterOptions& options,
-                      double width_slack, const EdgeCrowd& edges) {
-  const Reference reference = strong_stripe(groups, options);
+                      double width_slack, double least_height, const EdgeCrowd& edges) {
+  Reference reference = strong_stripe(groups, options);
+  reference.intensity = std::max(reference.intensity, least_height);
   double kept = 0;
   for (const FilteredLines& group : groups)
     for (const LineFacts& line : *group.facts) kept += line.length;
   // In a grey picture full of edges a line no brighter than they are is made by the same things.
-  const double least_intensity = width_slack > 1 && edges.length > kept ? kOverEdges * edges.height() : 0.0;
+  const double least_intensity =
+      width_slack > 1 && edges.length > kManyEdges * kept ? kOverEdges * edges.height() : 0.0;
   for (const FilteredLines& group : groups)
     keep_if(*group.lines, *group.facts, [&](const LineFacts& line) {
       return (line.colour_known || line.intensity > least_intensity) &&

@@ -70,8 +70,9 @@ struct FilteredLines {
   std::vector<LineFacts>* facts = nullptr;
 };
 
-/// Drops the lines that are too faint against the strong ones of the same image, whatever their scale.
+/// Drops the lines that are too faint against the strong ones of the same image, whatever their scale, or
+/// against `least_height` grey levels where even the strongest is fainter.
 void drop_faint_lines(std::span<const FilteredLines> groups, double noise, const LineFilterOptions& options,
-                      double width_slack, const EdgeCrowd& edges);
+                      double width_slack, double least_height, const EdgeCrowd& edges);
 
 }  // namespace lightstripe

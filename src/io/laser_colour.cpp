@@ -175,18 +175,22 @@ std::vector<std::uint8_t> where_laser_colour(const ColourPlanes& bgr, std::size_
 LaserVote vote_for_laser(const ColourPlanes& bgr) {
   constexpr int kLargest = 500;            // px; larger pictures are looked at in halves
   constexpr double kLeastBump = 10;        // grey levels
+  constexpr double kLeastShare = 0.3;      // of the brightest colour; less is the core's own tint
   constexpr double kLeastScore = 12 * 12;  // a dozen rows of a faint line
   constexpr double kClippedShare = 0.05;   // of the line's pixels
   ColourPlanes small = bgr;
   const int halves = std::max(bgr[0].cols, bgr[0].rows) > kLargest ? 2 : 1;
   if (halves == 2)
     for (std::size_t k = 0; k < 3; ++k) cv::resize(bgr.at(k), small.at(k), {}, 0.5, 0.5, cv::INTER_AREA);
+  const std::array<ColourRise, 3> rises = {colour_rise(small, 0), colour_rise(small, 1),
+                                           colour_rise(small, 2)};
+  const double largest = std::max({rises[0].top, rises[1].top, rises[2].top});
   LaserVote best;
   for (const std::size_t plane : {2U, 1U, 0U}) {
-    const ColourRise rise = colour_rise(small, plane);
+    const ColourRise& rise = rises.at(plane);
     if (rise.top < kLeastBump) continue;
     const LaserMasks masks = masks_of(rise, small.at(plane));
-    const double least = std::max(kLeastBump, 6.0 * rise.noise);
+    const double least = std::max({kLeastBump, 6.0 * rise.noise, kLeastShare * largest});
     const cv::Mat filled = filled_rise(rise, masks.core);
     const double score = std::max(track_score(filled, small.at(plane), least),
                                   track_score(filled.t(), small.at(plane).t(), least));
