@@ -8,18 +8,20 @@
 #include "apps/options.h"
 #include "apps/self_description.h"
 #include "io/atomic_file.h"
+#include "pipeline/conformance.h"
 
 namespace lightstripe {
 namespace {
 
 struct GenerateArguments {
   CommonOptions common;
-  std::string what;
+  std::string what, references;
 };
 
 int run_generate(const GenerateArguments& arguments, const CLI::App& app) {
-  const std::string text =
-      arguments.what == "man-page" ? man_page(app, LIGHTSTRIPE_VERSION) : bash_completion(app);
+  const std::string text = arguments.what == "man-page"      ? man_page(app, LIGHTSTRIPE_VERSION)
+                           : arguments.what == "conformance" ? conformance_page(arguments.references)
+                                                             : bash_completion(app);
   if (arguments.common.output.empty()) {
     fmt::print("{}", text);
   } else {
@@ -34,9 +36,12 @@ void add_generate_command(CLI::App& app, Command& run) {
   auto* command = app.add_subcommand("generate", "the man page, or the completion script for bash");
   command->group("");  // for those who package the program: not in --help's list
   auto arguments = std::make_shared<GenerateArguments>();
-  command->add_option("what", arguments->what, "man-page or bash-completion")
+  command
+      ->add_option("what", arguments->what, "man-page, bash-completion, or conformance (docs/conformance.md)")
       ->required()
-      ->check(CLI::IsMember({"man-page", "bash-completion"}));
+      ->check(CLI::IsMember({"man-page", "bash-completion", "conformance"}));
+  command->add_option("--references", arguments->references,
+                      "conformance: folder with reference/conicity and data/miniprof");
   add_common_options(*command, arguments->common, "file (default: standard output)");
   command->callback(
       [arguments, &app, &run] { run = [arguments, &app] { return run_generate(*arguments, app); }; });
