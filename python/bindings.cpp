@@ -22,6 +22,7 @@
 #include "io/images.h"
 #include "io/rig_file.h"
 #include "io/tables.h"
+#include "jobs.h"
 #include "options.h"
 #include "reconstruct/cloud.h"
 #include "reconstruct/triangulate.h"
@@ -32,7 +33,8 @@ namespace {
 namespace fs = std::filesystem;
 
 ExtractionResult extract(const py::array& image, const py::kwargs& given) {
-  const ExtractionOptions options = extraction_options(given);
+  ExtractionOptions options;
+  apply_options(options, given);
   const auto run = [&options](auto view) {
     const py::gil_scoped_release others_may_run;
     return extract_stripes(view, options);
@@ -107,7 +109,7 @@ Channel channel_of(const std::string& name) {
     if (entry.name == name) return entry.value;
   throw py::value_error(
       "'" + name +
-      "' is no channel: use auto, gray, red, green, blue, red-excess, green-excess or blue-excess");
+      "' is no channel: use auto, gray, or red, green or blue, alone or with -excess, -laser or -clipped");
 }
 
 Eigen::Matrix3d camera_matrix(const Camera& camera) {
@@ -246,6 +248,7 @@ PYBIND11_MODULE(_core, module) {
   add_rig(module);
   add_extraction(module);
   add_profiles(module);
+  add_jobs(module);
 }
 
 }  // namespace lightstripe::python
