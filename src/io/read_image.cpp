@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A picture file -> grey values.
 #include <fmt/format.h>
-#include <opencv2/imgcodecs.hpp>
+#include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 #include <optional>
 
@@ -13,6 +13,7 @@
 #include "io/grey_channel.h"
 #include "io/image_header.h"
 #include "io/images.h"
+#include "io/opencv_codecs.h"
 #include "io/png_grey.h"
 
 namespace lightstripe {
@@ -36,18 +37,13 @@ void check_header(const ImageHeader& header, const std::string& name) {
 /// Grey or BGR, 8 or 16 bits, alpha dropped, not turned by EXIF or TIFF's Orientation. A white that the file
 /// tells goes into the header.
 cv::Mat decoded(std::string_view bytes, const std::string& name, ImageHeader& header) {
-  cv::Mat picture;
   if (header.format == ImageFormat::kTiff) {
     TiffPicture tiff = decode_tiff(bytes, name);
     header.max_value = tiff.white;
     return std::move(tiff.pixels);
   }
-  try {
-    const cv::Mat buffer(1, static_cast<int>(bytes.size()), CV_8UC1, const_cast<char*>(bytes.data()));
-    picture = cv::imdecode(buffer, cv::IMREAD_ANYDEPTH | cv::IMREAD_ANYCOLOR | cv::IMREAD_IGNORE_ORIENTATION);
-  } catch (const cv::Exception&) {
-    picture.release();
-  }
+  const cv::Mat buffer(1, static_cast<int>(bytes.size()), CV_8UC1, const_cast<char*>(bytes.data()));
+  cv::Mat picture = opencv_codecs().decode(buffer);
   if (picture.empty()) throw Error(name, "cannot be decoded, its content is damaged", kExportAgain);
   if (picture.depth() != CV_8U && picture.depth() != CV_16U)
     throw Error(name, "has neither 8 nor 16 bits a channel", "convert it to 8 or 16 bits");
