@@ -152,7 +152,7 @@ void refuse_wrong_unit(const SessionViews& session, const JointAdjustment& adjus
 
 void refuse_contradicting_halves(const CrossValidation& cross_validation, const JointAdjustment& adjustment) {
   constexpr double kMaxRatio = 5;
-  constexpr double kMaxShare = 1e-3;  // of the range
+  constexpr double kMaxShare = 3e-3;  // of the range
   double range = 0;
   for (const auto& pose : adjustment.state.first_from_board) range = std::max(range, pose.translation.norm());
   if (!cross_validation.done || cross_validation.ratio() < kMaxRatio ||

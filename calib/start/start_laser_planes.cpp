@@ -74,8 +74,10 @@ Plane start_plane(InitialValues& values, int sensor, std::size_t plane) {
   const auto name = plane_name(values, sensor, plane);
   const auto stripes = stripes_in_space(values, sensor, plane);
   if (stripes.empty())
-    throw NotUsable(fmt::format(
-        "{}: no laser line on any board; boards for the camera alone are asked for by laser: none", name));
+    throw NotUsable(
+        fmt::format("{}: the stripe was found on 0 boards only: no laser line on any board; boards for the "
+                    "camera alone are asked for by laser: none",
+                    name));
   if (stripes.size() < 2)
     throw NotUsable(
         fmt::format("{}: the stripe was found on {} boards only; at least 2 are needed, better all of them",

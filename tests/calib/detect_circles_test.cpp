@@ -116,7 +116,8 @@ Target tags() {
   return target;
 }
 
-/// Rms of a corner's coordinate over three poses, px; the discs' bias is that of correct_circles().
+/// What a board tells of its place: rms of a corner's coordinate over three poses, px, by the root of the
+/// number of corners. The discs' bias is that of correct_circles().
 double error_px(const Target& target) {
   double sum = 0;
   int count = 0;
@@ -144,12 +145,12 @@ double error_px(const Target& target) {
     sum += best;
     count += 2 * static_cast<int>(std::count_if(found.corners.begin(), found.corners.end(), is_seen));
   }
-  return std::sqrt(sum / count);
+  return std::sqrt(sum / count) / std::sqrt(count / 6.0);
 }
 
 TEST(DetectCircles, CirclesAndTagsAreAsGoodAsACheckerboardOfTheSameSize) {
   const double squares = error_px({TargetType::kCheckerboard, 9, 7, 14, 14});
-  EXPECT_LT(squares, 0.04);
+  EXPECT_LT(squares, 0.04 / std::sqrt(63.0));
   EXPECT_LT(error_px(circles()), 1.2 * squares);
   EXPECT_LT(error_px(asymmetric()), 1.2 * squares);
   EXPECT_LT(error_px(tags()), 1.2 * squares);
