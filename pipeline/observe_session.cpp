@@ -91,7 +91,9 @@ std::vector<ViewTask> motion_tasks(const Session& session) {
 /// The board in a picture that may show the laser as well: of colour pictures other channels are tried where
 /// grey fails.
 BoardDetection find_board(const fs::path& file, const Session& session, Image8& image) {
-  const bool automatic = session.channel == Channel::kAuto || enum_name(session.channel).ends_with("-excess");
+  // The laser's colour hides the board, or leaves nothing of it.
+  const bool automatic =
+      session.channel == Channel::kAuto || enum_name(session.channel).find('-') != std::string_view::npos;
   image = read_image(file, automatic ? Channel::kGray : session.channel);
   BoardDetection detection = detect_board(image, session.target);
   if (detection.found || !automatic) return detection;
@@ -104,7 +106,26 @@ BoardDetection find_board(const fs::path& file, const Session& session, Image8& 
   return detection;
 }
 
-ViewResult observe_view(const ViewTask& task, const Session& session, const ExtractionOptions& extraction) {
+/// One channel for each sensor: what the session says, or the vote of its pictures.
+std::vector<Channel> sensor_channels(const Session& session, const std::vector<ViewTask>& tasks) {
+  std::vector<Channel> channels(session.sensors.size(), session.channel);
+  if (session.channel != Channel::kAuto) return channels;
+  for (std::size_t sensor = 0; sensor < channels.size(); ++sensor) {
+    std::vector<fs::path> lit;
+    for (const ViewTask& task : tasks) {
+      if (task.sensor != static_cast<int>(sensor) || task.motion) continue;
+      if (!session.sensors[sensor].laser)
+        lit.push_back(task.board);
+      else if (!task.laser.empty())
+        lit.push_back(task.laser);
+    }
+    channels[sensor] = channel_of_pictures(lit);
+  }
+  return channels;
+}
+
+ViewResult observe_view(const ViewTask& task, const Session& session, Channel channel,
+                        const ExtractionOptions& extraction) {
   const SessionSensor& sensor = session.sensors[static_cast<std::size_t>(task.sensor)];
   ViewResult result;
   Image8 board;
@@ -120,8 +141,7 @@ ViewResult observe_view(const ViewTask& task, const Session& session, const Extr
   BoardView view{name, task.pose, detection.corners, {}};
   const bool single = !sensor.laser && !task.motion;
   if (single || !task.laser.empty()) {
-    Channel channel = session.channel;
-    const Image8 laser = read_image(single ? task.board : task.laser, session.channel, &channel);
+    const Image8 laser = read_image(single ? task.board : task.laser, channel);
     if (laser.width != board.width || laser.height != board.height)
       throw Error(task.laser.string(),
                   fmt::format("is {} x {} px, its board image {} x {}", laser.width, laser.height,
@@ -196,11 +216,13 @@ SessionObservations observe_session(const Session& session, const ExtractionOpti
       tasks.push_back(std::move(task));
   for (auto& task : motion_tasks(session)) tasks.push_back(std::move(task));
 
+  const std::vector<Channel> channels = sensor_channels(session, tasks);
   std::vector<ViewResult> results(tasks.size());
   StepCounter steps("looking for boards", "images", static_cast<std::int64_t>(tasks.size()), progress);
   parallel_for(tasks.size(), [&](std::size_t i) {
     if (stop.stop_requested()) return;
-    results[i] = observe_view(tasks[i], session, extraction);
+    results[i] =
+        observe_view(tasks[i], session, channels[static_cast<std::size_t>(tasks[i].sensor)], extraction);
     steps.step();
   });
   if (stop.stop_requested())
