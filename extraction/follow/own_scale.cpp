@@ -270,7 +270,7 @@ void LineFinder<T>::block(const Followed& line, double sigmas) {
 template <class T>
 void LineFinder<T>::try_seed(const ScaleSeed& seed) {
   if (!search_.image.contains(seed.x, seed.y) ||
-      search_.image.laser_colour(seed.x, seed.y) < LaserColour::kSure)
+      search_.image.laser_colour(seed.x, seed.y) < LaserPlace::kSure)
     return;
   const std::uint16_t label = following_.mask(seed.x, seed.y);
   if (label != ExclusionMask::kFree && label != ExclusionMask::kDead) return;

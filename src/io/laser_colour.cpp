@@ -167,7 +167,7 @@ std::vector<std::uint8_t> where_laser_colour(const ColourPlanes& bgr, std::size_
   for (int y = 0; y < sure.rows; ++y) {
     const auto *s = sure.ptr<std::uint8_t>(y), *f = faint.ptr<std::uint8_t>(y);
     for (int x = 0; x < sure.cols; ++x)
-      where.push_back(s[x] != 0 ? LaserColour::kSure : f[x] != 0 ? LaserColour::kFaint : LaserColour::kNone);
+      where.push_back(s[x] != 0 ? LaserPlace::kSure : f[x] != 0 ? LaserPlace::kFaint : LaserPlace::kNone);
   }
   return where;
 }
