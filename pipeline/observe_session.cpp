@@ -329,6 +329,8 @@ void observe_bed(const Session& session, std::size_t index, const ExtractionOpti
     observed.given_camera->camera.width = image.width;
     observed.given_camera->camera.height = image.height;
   }
+  ++seen.images;
+  ++seen.boards_found;
   BedObservations result;
   result.board.image = bed.filename().string();
   result.board.corners = board.corners;
@@ -337,7 +339,6 @@ void observe_bed(const Session& session, std::size_t index, const ExtractionOpti
     if (picture.width != image.width || picture.height != image.height)
       throw Error((table.parent_path() / name).string(), "has another size than " + bed.string(),
                   "give images of one camera and one setting");
-    ++seen.images;
     HeightView view{name, height, straight_lines(extract_stripes(picture, extraction).stripes)};
     if (view.lines.empty())
       seen.rejected.push_back({sensor.name, name, "no straight line; is the laser on in this picture?"});

@@ -100,7 +100,7 @@ py::dict quality_of(const Rig& rig) {
   const auto known = [](double value) { return value > 0 ? py::object(py::float_(value)) : py::none(); };
   return py::dict("section_shape_sigma_mm"_a = known(quality.section_shape_sigma_mm),
                   "section_absolute_sigma_mm"_a = known(quality.section_absolute_sigma_mm),
-                  "cross_validation_ratio"_a = known(quality.cross_validation_ratio),
+                  "cross_validation_ratio"_a = known(quality.cross_validation_ratio.value_or(0)),
                   "weakest"_a = quality.weakest, "warnings"_a = quality.warnings, "sigma"_a = quality.sigma);
 }
 
