@@ -37,6 +37,7 @@ void add_merge_command(CLI::App& app, Command& run);
 void add_simulate_command(CLI::App& app, Command& run);
 void add_demo_command(CLI::App& app, Command& run);
 void add_measure_command(CLI::App& app, Command& run);
+void add_conicity_command(CLI::App& app, Command& run);
 void add_verify_command(CLI::App& app, Command& run);
 void add_bench_command(CLI::App& app, Command& run);
 void add_generate_command(CLI::App& app, Command& run);

@@ -3,6 +3,7 @@
 // A picture file -> grey values.
 #include <fmt/format.h>
 #include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
 #include <optional>
 
 #include "core/error.h"
@@ -118,6 +119,18 @@ Image8 read_image(const std::filesystem::path& path, Channel channel, Channel* c
 
 GreyImage read_grey_image(const std::filesystem::path& path, Channel channel, Channel* chosen) {
   return decode_picture(read_file(path), path.string(), channel, Bits::kKept, chosen);
+}
+
+RgbImage read_rgb_image(const std::filesystem::path& path) {
+  const std::string bytes = read_file(path), name = path.string();
+  if (bytes.empty()) throw Error(name, "is empty", kExportAgain);
+  ImageHeader header = inspect_image(bytes);
+  check_header(header, name);
+  cv::Mat picture = decoded(bytes, name, header);
+  if (picture.depth() == CV_16U) picture = scaled_to_8_bits(picture, header);
+  cv::cvtColor(picture, picture, picture.channels() == 1 ? cv::COLOR_GRAY2RGB : cv::COLOR_BGR2RGB);
+  const auto* first = picture.ptr<std::uint8_t>();
+  return {{first, first + picture.total() * 3}, picture.cols, picture.rows};
 }
 
 }  // namespace lightstripe
