@@ -36,7 +36,7 @@ std::string ply_header(std::int64_t num_points, const CloudOrigin& origin) {
       slack(num_points, 1), origin_comment(origin), num_points);
 }
 
-/// PCL's own writer would round the origin to 32 bits.
+/// The viewpoint carries the origin in full precision, which PCL's 32-bit numbers would not.
 std::string pcd_header(std::int64_t num_points, const CloudOrigin& origin) {
   return fmt::format(
       "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\n"

@@ -58,10 +58,10 @@ class VideoFrames : public FrameSource {
   }
 
   void count_frames() {
-    std::int64_t next_vote = 0;
-    std::vector<Channel> votes;
     const double stated = capture_->get(cv::CAP_PROP_FRAME_COUNT);
     if (stated > 0 && stated < 1e9) stated_ = static_cast<std::int64_t>(stated);
+    std::int64_t next_vote = 0;
+    std::vector<Channel> votes;
     for (cv::Mat frame; capture_->grab(); ++size_) {
       if (channel_ != Channel::kAuto || size_ != next_vote || !capture_->retrieve(frame)) continue;
       const Channel chosen = strongest_channel(frame).channel;
