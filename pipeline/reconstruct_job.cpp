@@ -313,8 +313,8 @@ ReconstructResult reconstruct_following(ReconstructJob job, const ProgressCallba
                                         const std::stop_token& stop) {
   CameraRecorders recorders(job);
   std::stop_source over;
-  const std::stop_callback by_user(stop, [&] { over.request_stop(); }),
-      by_failure(recorders.failed(), [&] { over.request_stop(); });
+  const std::stop_callback by_user(stop, [&] { over.request_stop(); });
+  const std::stop_callback by_failure(recorders.failed(), [&] { over.request_stop(); });
   ReconstructResult result;
   std::optional<ScanOutput> output;
   const Run run = scan_what_comes(job, output, progress, over.get_token(), result);
