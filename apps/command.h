@@ -39,6 +39,7 @@ void add_live_command(CLI::App& app, Command& run);
 void add_simulate_command(CLI::App& app, Command& run);
 void add_demo_command(CLI::App& app, Command& run);
 void add_measure_command(CLI::App& app, Command& run);
+void add_conicity_command(CLI::App& app, Command& run);
 void add_verify_command(CLI::App& app, Command& run);
 void add_bench_command(CLI::App& app, Command& run);
 void add_generate_command(CLI::App& app, Command& run);

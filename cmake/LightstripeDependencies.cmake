@@ -41,8 +41,6 @@ macro(lightstripe_find_dependencies part)
     lightstripe_need(Ceres 2.1)
   elseif("${part}" STREQUAL reconstruct)
     lightstripe_need(fmt)
-    # By pkg-config: PCLConfig.cmake would also want all that VTK was built with (MPI, Qt ...).
-    lightstripe_need_module(pcl_io pcl_io)
   elseif("${part}" STREQUAL measure)
     lightstripe_need(fmt)
   elseif("${part}" MATCHES "^(simulate|pipeline|report|truth)$")

@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "io/atomic_file.h"
+#include "io/yaml_binding.h"
 
 namespace lightstripe {
 namespace {
@@ -51,8 +52,8 @@ void write_run_record(const std::filesystem::path& output, const std::string& co
   std::string text = fmt::format("lightstripe: {}\ncommand: {}\ninputs:\n", LIGHTSTRIPE_VERSION, command);
   for (const auto& input : inputs) {
     const InputFacts facts = facts_of(input);
-    text += fmt::format("  - {{file: \"{}\", bytes: {}, fnv1a: \"{:016x}\"}}\n", input.string(), facts.bytes,
-                        facts.hash);
+    text += fmt::format("  - {{file: {}, bytes: {}, fnv1a: \"{:016x}\"}}\n", yaml_text(input.string()),
+                        facts.bytes, facts.hash);
   }
   write_file(output.string() + ".run.yaml", text + options);
 }

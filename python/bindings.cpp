@@ -109,7 +109,7 @@ Channel channel_of(const std::string& name) {
     if (entry.name == name) return entry.value;
   throw py::value_error(
       "'" + name +
-      "' is no channel: use auto, gray, red, green, blue, red-excess, green-excess or blue-excess");
+      "' is no channel: use auto, gray, or red, green or blue, alone or with -excess, -laser or -clipped");
 }
 
 Eigen::Matrix3d camera_matrix(const Camera& camera) {

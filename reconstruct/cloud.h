@@ -42,8 +42,9 @@ class CloudWriter {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Reads a .ply or .pcd cloud that CloudWriter wrote. An Error where the header is not of that layout or
-/// counts other points than the file holds; looked up before anything is allocated.
+/// Reads a .ply or .pcd cloud that lightstripe wrote; about its origin, if it names one (inspect_cloud()). An
+/// Error where the header is not of that layout or counts other points than the file holds; looked up before
+/// anything is allocated.
 std::vector<CloudPoint> read_cloud(const std::filesystem::path& path);
 
 }  // namespace lightstripe

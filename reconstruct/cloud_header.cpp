@@ -3,13 +3,11 @@
 #include "reconstruct/cloud_header.h"
 
 #include <fmt/format.h>
-#include <pcl/io/pcd_io.h>
 
 #include <algorithm>
 #include <cctype>
 
 #include "core/error.h"
-#include "reconstruct/cloud_point_type.h"
 
 namespace lightstripe {
 namespace {
@@ -20,26 +18,32 @@ std::string slack(std::int64_t num_points, std::size_t occurrences) {
   return std::string(occurrences * (kMaxDigits - fmt::format("{}", num_points).size()), ' ');
 }
 
-/// By hand: PCL's own header appends a camera or a range grid with some twenty properties and an empty face
-/// element, which docs/interface.md does not have.
-std::string ply_header(std::int64_t num_points) {
-  return fmt::format(
-      "ply\nformat binary_little_endian 1.0\ncomment lightstripe, mm{}\nelement vertex {}\n"
-      "property float x\nproperty float y\nproperty float z\nproperty float intensity\n"
-      "property int frame\nproperty int sensor\nproperty int line\nproperty float sigma\nend_header\n",
-      slack(num_points, 1), num_points);
+/// One line that people and programs read; CloudCompare's "global shift" is the same with other signs.
+std::string origin_comment(const CloudOrigin& origin) {
+  if (origin.isZero()) return "";
+  return fmt::format("comment origin {} {} {} (add it to x y z; as CloudCompare's global shift: {} {} {})\n",
+                     origin.x(), origin.y(), origin.z(), -origin.x(), -origin.y(), -origin.z());
 }
 
-std::string pcd_header(std::int64_t num_points) {
-  pcl::PCLPointCloud2 cloud;
-  cloud.fields = pcl::getFields<CloudPoint>();
-  cloud.width = static_cast<std::uint32_t>(num_points);
-  cloud.height = 1;
-  cloud.point_step = sizeof(CloudPoint);
-  const std::string header =
-      pcl::PCDWriter().generateHeaderBinary(cloud, Eigen::Vector4f::Zero(), Eigen::Quaternionf::Identity());
-  return header +
-         fmt::format("# lightstripe, mm{}\nDATA binary\n", slack(num_points, 2));  // WIDTH and POINTS
+/// By hand, as the one of .pcd: PCL's own appends a camera or a range grid with some twenty properties and an
+/// empty face element, which docs/interface.md does not have; and a program that links PCL loads VTK and
+/// OpenNI for these few lines. The tests read both with PCL.
+std::string ply_header(std::int64_t num_points, const CloudOrigin& origin) {
+  return fmt::format(
+      "ply\nformat binary_little_endian 1.0\ncomment lightstripe, mm{}\n{}element vertex {}\n"
+      "property float x\nproperty float y\nproperty float z\nproperty float intensity\n"
+      "property int frame\nproperty int sensor\nproperty int line\nproperty float sigma\nend_header\n",
+      slack(num_points, 1), origin_comment(origin), num_points);
+}
+
+/// The viewpoint carries the origin in full precision, which PCL's 32-bit numbers would not.
+std::string pcd_header(std::int64_t num_points, const CloudOrigin& origin) {
+  return fmt::format(
+      "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\n"
+      "FIELDS x y z intensity frame sensor line sigma\nSIZE 4 4 4 4 4 4 4 4\nTYPE F F F F I I I F\n"
+      "COUNT 1 1 1 1 1 1 1 1\nWIDTH {0}\nHEIGHT 1\nVIEWPOINT {2} {3} {4} 1 0 0 0\nPOINTS {0}\n"
+      "# lightstripe, mm{1}\nDATA binary\n",
+      num_points, slack(num_points, 2), origin.x(), origin.y(), origin.z());  // WIDTH and POINTS
 }
 
 }  // namespace
@@ -55,10 +59,10 @@ CloudFormat cloud_format(const std::filesystem::path& path, const std::string& n
               "name it .ply, .pcd or .xyz");
 }
 
-std::string cloud_header(CloudFormat format, std::int64_t num_points) {
+std::string cloud_header(CloudFormat format, std::int64_t num_points, const CloudOrigin& origin) {
   LIGHTSTRIPE_CHECK(num_points >= 0 && num_points <= kMaxCloudPoints, "a cloud's number of points");
-  if (format == CloudFormat::kPly) return ply_header(num_points);
-  if (format == CloudFormat::kPcd) return pcd_header(num_points);
+  if (format == CloudFormat::kPly) return ply_header(num_points, origin);
+  if (format == CloudFormat::kPcd) return pcd_header(num_points, origin);
   return {};
 }
 

@@ -42,6 +42,16 @@ std::string sensors_json(const CalibrationResult& result) {
   return list.text();
 }
 
+std::string stripes_json(const CalibrationSummary& summary) {
+  JsonList list;
+  for (const auto& s : summary.stripes)
+    list.add(
+        fmt::format("{{\"name\": {}, \"found\": {}, \"agreeing\": {}}}",
+                    json(s.plane > 0 ? fmt::format("{}, laser plane {}", s.sensor, s.plane + 1) : s.sensor),
+                    s.found, s.agreeing));
+  return list.text();
+}
+
 std::string views_json(const CalibrationSummary& summary) {
   JsonList list;
   for (const auto& v : summary.views)
@@ -123,7 +133,7 @@ std::string rig_json(const SessionObservations& seen, const CalibrationResult& r
                             point_json(sensor.rig_from_camera.translation),
                             outline_json(frustum(sensor, 120))));
   const Target& t = seen.observations.target;
-  const double w = (t.columns - 1) * t.pitch_x, h = (t.rows - 1) * t.pitch_y;
+  const double w = t.extent().x(), h = t.extent().y();
   if (result.diagnosis)
     for (const auto& pose : result.diagnosis->rig_from_board)
       boards.add(outline_json({pose * Eigen::Vector3d(0, 0, 0), pose * Eigen::Vector3d(w, 0, 0),
@@ -167,15 +177,17 @@ std::string report_data(const SessionObservations& seen, const CalibrationResult
       "\"warp_mm\": [{}, {}],\n"
       "\"weakest\": {}, \"cross_validation\": {{\"done\": {}, \"why_not\": {}, \"difference_mm\": {}, "
       "\"predicted_mm\": {}}},\n"
-      "\"sensors\": {},\n\"views\": {},\n\"map\": {},\n\"rig3d\": {},\n\"sigma\": {{{}}},\n\"residuals\": "
+      "\"stripes\": {},\n\"sensors\": {},\n\"views\": {},\n\"map\": {},\n\"rig3d\": {},\n\"sigma\": "
+      "{{{}}},\n\"residuals\": "
       "{},\n"
       "\"rejected\": {},\n\"used\": {}}}",
       result.summary.usable, json(result.summary.message), warnings.text(),
       json(quality.section_shape_sigma_mm), json(quality.section_absolute_sigma_mm),
       json(result.summary.board_warp_mm.x()), json(result.summary.board_warp_mm.y()), json(diagnosis.weakest),
       cross.done, json(cross.why_not), json(cross.difference_mm), json(cross.predicted_mm),
-      sensors_json(result), views_json(result.summary), map_json(diagnosis), rig_json(seen, result), sigma,
-      residuals_json(diagnosis), pictures_json(seen.pictures, true), pictures_json(seen.pictures, false));
+      stripes_json(result.summary), sensors_json(result), views_json(result.summary), map_json(diagnosis),
+      rig_json(seen, result), sigma, residuals_json(diagnosis), pictures_json(seen.pictures, true),
+      pictures_json(seen.pictures, false));
 }
 
 void replace(std::string& text, std::string_view mark, std::string_view with) {

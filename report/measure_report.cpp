@@ -12,6 +12,7 @@
 
 #include "pipeline/frame_links.h"
 #include "pipeline/measurement_table.h"
+#include "report/page_text.h"
 #include "report/section_drawing.h"
 
 namespace lightstripe {
@@ -24,33 +25,6 @@ struct MeasureReport {
   const MeasureResult& result;
   const std::filesystem::path &page, &scan_file;
 };
-
-constexpr const char* kStyle =
-    "body{font:14px/1.45 sans-serif;max-width:1280px;margin:24px auto;padding:0 16px;color:#222}"
-    "table{border-collapse:collapse;margin:8px 0}td,th{padding:3px 7px;white-space:nowrap;border-bottom:1px "
-    "solid "
-    "#ddd;text-align:right}"
-    "td:first-child,th:first-child{text-align:left}.fail{color:#c8401f;font-weight:bold}.strip{display:flex;"
-    "flex-wrap:wrap;gap:12px}"
-    "figure{margin:0;border:1px solid #ddd;padding:6px}figcaption{font-size:12px}svg text{font:11px "
-    "sans-serif}";
-
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '<')
-      out += "&lt;";
-    else if (c == '>')
-      out += "&gt;";
-    else if (c == '&')
-      out += "&amp;";
-    else if (c == '"')
-      out += "&quot;";
-    else
-      out += c;
-  }
-  return out;
-}
 
 std::string cell(const Estimate* estimate) {
   if (!estimate) return "<td></td>";
@@ -248,7 +222,7 @@ std::string measure_report_html(const MeasureJob& job, const MeasureResult& resu
   std::string html =
       "<!DOCTYPE html><html lang=\"en\"><head><meta charset=\"utf-8\"><title>lightstripe "
       "measure</title><style>";
-  html += kStyle;
+  html += page_style();
   html += fmt::format(
       "</style></head><body><h1>{} against {}</h1><p>{}: {} frames, {} measured completely, {} beyond a "
       "limit.</p>",
