@@ -117,6 +117,18 @@ std::map<std::int64_t, Rigid3> read_poses(const std::filesystem::path& path) {
   return poses;
 }
 
+std::map<std::string, Rigid3> read_image_poses(const std::filesystem::path& path) {
+  CsvReader table(path, {"image", "qw", "qx", "qy", "qz", "x", "y", "z"});
+  std::map<std::string, Rigid3> poses;
+  while (table.next()) {
+    const std::string image(table.text(0));
+    if (!poses.emplace(image, pose_in_row(table)).second)
+      table.fail("image " + image + " is given twice", "keep one row");
+  }
+  if (poses.empty()) throw Error(path.string(), "has no rows", "give the tool's pose for each image");
+  return poses;
+}
+
 namespace {
 
 /// "bridged;saturated", empty where there is nothing to say.
@@ -133,18 +145,6 @@ void append_flags(std::string& out, std::uint8_t flags) {
 }
 
 }  // namespace
-
-std::map<std::string, Rigid3> read_image_poses(const std::filesystem::path& path) {
-  CsvReader table(path, {"image", "qw", "qx", "qy", "qz", "x", "y", "z"});
-  std::map<std::string, Rigid3> poses;
-  while (table.next()) {
-    const std::string image(table.text(0));
-    if (!poses.emplace(image, pose_in_row(table)).second)
-      table.fail("image " + image + " is given twice", "keep one row");
-  }
-  if (poses.empty()) throw Error(path.string(), "has no rows", "give the tool's pose for each image");
-  return poses;
-}
 
 void append_stripes(std::string& out, std::string_view image, const std::vector<Stripe>& stripes) {
   const std::string image_cell = csv_cell(image);
