@@ -201,8 +201,8 @@ TEST_F(Jobs, ExtractTellsEachPictureInOrderWhenItsRowsAreWritten) {
   job.table = at("stripes.csv");
   std::atomic<std::size_t> looked_at = 0;
   std::vector<std::size_t> order;
-  job.on_image = [&](std::size_t, const Image8& image, const ExtractionResult&) {
-    EXPECT_GT(image.width, 0);
+  job.on_image = [&](std::size_t, const SeenImage& seen) {
+    EXPECT_GT(std::visit([](const auto& image) { return image.width; }, seen.image), 0);
     ++looked_at;
   };
   job.on_row = [&](std::size_t i) { order.push_back(i); };
