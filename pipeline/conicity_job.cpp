@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <numbers>
 
@@ -166,6 +167,16 @@ void append_optional(std::string& out, const std::optional<double>& value, int d
   if (value) append_decimals(out, *value, decimals);
 }
 
+void check_job(const ConicityJob& job) {
+  if (!(job.options.from_mm > 0 && job.options.from_mm <= job.options.to_mm))
+    throw Error("--from, --to", "are no range of amplitudes", "give 0 < from <= to");
+  std::error_code none;
+  for (const std::string& output : {job.output, job.contacts})
+    for (const std::string& input : {job.wheel, job.wheel_right, job.rail, job.rail_right})
+      if (std::filesystem::equivalent(output, input, none))
+        throw Error(output, "is an input", "name another file to write to");
+}
+
 }  // namespace
 
 RollingProfile read_rolling_wheel(const std::string& source, const ConicityJob& job,
@@ -207,6 +218,7 @@ RollingProfile read_rolling_rail(const std::string& source, const ConicityJob& j
 }
 
 Conicity run_conicity(const ConicityJob& job) {
+  check_job(job);
   const auto other = [](const std::string& right, const std::string& left) {
     return right.empty() ? left : right;
   };

@@ -62,6 +62,10 @@ std::string features_table(const FeaturesResult& result) {
 
 FeaturesResult measure_features_job(const FeaturesJob& job) {
   const JobThreads threads(job.threads);
+  std::error_code none;
+  for (const std::filesystem::path& input : {job.profiles, job.features})
+    if (std::filesystem::equivalent(job.table, input, none))
+      throw Error(job.table.string(), "is an input", "name another file to write to");
   FeaturesResult result;
   read_yaml(job.features, result.file);
   result.file.check(job.features.string());
