@@ -93,5 +93,6 @@ void add_measure_command(CLI::App& app, Command& run);
 void add_verify_command(CLI::App& app, Command& run);
 void add_bench_command(CLI::App& app, Command& run);
 void add_generate_command(CLI::App& app, Command& run);
+void add_view_command(CLI::App& app, Command& run);
 
 }  // namespace lightstripe

@@ -5,6 +5,7 @@
 include(CMakeFindDependencyMacro)
 find_dependency(Eigen3 3.4 NO_MODULE)
 find_dependency(fmt)
+find_dependency(nlohmann_json)
 find_dependency(yaml-cpp)
 find_dependency(OpenCV 4.6 COMPONENTS core imgproc imgcodecs videoio calib3d features2d)
 find_dependency(Ceres 2.1)
