@@ -56,6 +56,11 @@ std::string why_empty(const ReconstructOutcome& outcome) {
 }
 
 int run_reconstruct(const ReconstructArguments& arguments) {
+  if (arguments.dry_run) {
+    const auto [first, end] = frames_to_reconstruct(arguments);
+    fmt::print("frames: {}:{}\n", first, end);
+    return kExitDone;
+  }
   const std::string output = arguments.common.output.empty() ? "cloud.ply" : arguments.common.output;
   const ReconstructOutcome outcome = reconstruct_scan(arguments);
   const ScanSummary& summary = outcome.summary;
@@ -86,6 +91,8 @@ void add_reconstruct_command(CLI::App& app, Command& run) {
                       "A:B: only the frames A to B - 1 (`lightstripe merge` joins such parts)");
   command->add_flag("--strict", arguments->strict,
                     "a picture that is missing or cannot be read ends the run");
+  command->add_flag("--dry-run", arguments->dry_run,
+                    "read the scan file, print the frames that would be reconstructed (A:B), and stop");
   command->add_flag("--resume", arguments->resume, "go on where an interrupted run was ended");
   command
       ->add_option("--checkpoint", arguments->checkpoint_s,

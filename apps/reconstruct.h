@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "apps/command.h"
@@ -24,6 +25,7 @@ struct ReconstructArguments {
   bool strict = false;   ///< a picture that is missing or cannot be read ends the run
   bool resume = false;   ///< go on where an earlier run was ended
   double checkpoint_s = 1;
+  bool dry_run = false;  ///< only tell which frames there are
   Overrides extraction;
 };
 
@@ -37,6 +39,9 @@ struct ReconstructOutcome {
   int brightest = 0;          ///< where nothing was found: largest grey level of some pictures
   std::string partial_cloud;  ///< where the part is that was done before the run was interrupted
 };
+
+/// First frame and the one behind the last that a run with these arguments would scan.
+std::pair<std::int64_t, std::int64_t> frames_to_reconstruct(const ReconstructArguments& arguments);
 
 /// Reads, reconstructs and writes. Files appear under their names only when all went well and there are
 /// points; an interrupted run (Ctrl-C) leaves them under partial names, and says so by summary.stopped.

@@ -39,6 +39,22 @@ endif()
 set(lightstripe_precompiled <algorithm> <cmath> <filesystem> <functional> <map> <memory> <optional> <string> <vector>
                             <Eigen/Dense> <fmt/format.h>)
 
+# lightstripe_leave_out_parts(): takes out of LIGHTSTRIPE_PARTS what Ceres or PCL are missing for, and says so.
+function(lightstripe_leave_out_parts)
+  find_package(Ceres 2.1 QUIET)
+  find_package(PkgConfig REQUIRED)
+  pkg_check_modules(pcl_found QUIET pcl_io)
+  if(NOT Ceres_FOUND)
+    list(REMOVE_ITEM LIGHTSTRIPE_PARTS calib pipeline report)
+    message(STATUS "calib, pipeline, report: left out (apt install libceres-dev)")
+  endif()
+  if(NOT pcl_found_FOUND)
+    list(REMOVE_ITEM LIGHTSTRIPE_PARTS reconstruct pipeline report)
+    message(STATUS "reconstruct, pipeline, report: left out (apt install libpcl-dev)")
+  endif()
+  set(LIGHTSTRIPE_PARTS ${LIGHTSTRIPE_PARTS} PARENT_SCOPE)
+endfunction()
+
 # lightstripe_library(<folder's name> DEPS <folders it may include> EXTERNAL <libraries of others> PRECOMPILE <headers>)
 # makes lightstripe::<name> of every .cpp file below the current folder.
 function(lightstripe_library name)
@@ -51,6 +67,7 @@ function(lightstripe_library name)
                                                         $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src>
                                                         $<INSTALL_INTERFACE:${LIGHTSTRIPE_INSTALL_HEADERS}>)
   target_compile_features(lightstripe_${name} PUBLIC cxx_std_20)
+  set_property(GLOBAL PROPERTY LIGHTSTRIPE_DEPS_${name} "${ARG_DEPS}")
   list(TRANSFORM ARG_DEPS PREPEND lightstripe::)
   target_link_libraries(lightstripe_${name} PUBLIC ${ARG_DEPS} ${ARG_EXTERNAL} PRIVATE $<BUILD_INTERFACE:lightstripe_flags>)
   lightstripe_precompile(lightstripe_${name} ${ARG_PRECOMPILE})

@@ -205,6 +205,12 @@ void close_output(const Job& job, const Recording& recording, const CloudPreview
 
 }  // namespace
 
+std::pair<std::int64_t, std::int64_t> frames_to_reconstruct(const ReconstructArguments& arguments) {
+  const Job job = read_job(arguments);
+  const Recording recording(job.scan, arguments.scan, job.rig);
+  return parse_frames(arguments.frames, recording.first_frame(), recording.end_frame());
+}
+
 ReconstructOutcome reconstruct_scan(const ReconstructArguments& arguments) {
   const ThreadLimit limit(arguments.common);
   Job job = read_job(arguments);

@@ -59,6 +59,19 @@ py::dtype dtype_of(const ProfilePoint& p) {
       .dtype();
 }
 
+py::dtype dtype_of(const CloudPoint& p) {
+  return RecordLayout(p)
+      .add("x", p.x)
+      .add("y", p.y)
+      .add("z", p.z)
+      .add("intensity", p.intensity)
+      .add("frame", p.frame)
+      .add("sensor", p.sensor)
+      .add("line", p.line)
+      .add("sigma", p.sigma)
+      .dtype();
+}
+
 template <class Record>
 py::array view_of_records(const std::vector<Record>& records, py::handle owner) {
   return py::array(dtype_of(Record{}), {static_cast<py::ssize_t>(records.size())},
@@ -93,10 +106,18 @@ std::vector<ProfilePoint> profile_points(const py::array& records) {
 
 py::array adopted(Image8 image) {
   auto owned = std::make_unique<Image8>(std::move(image));
-  Image8& kept = *owned;
+  const Image8& kept = *owned;
   const py::capsule owner(owned.release(), [](void* memory) { delete static_cast<Image8*>(memory); });
   return py::array(py::dtype::of<std::uint8_t>(), {py::ssize_t{kept.height}, py::ssize_t{kept.width}}, {},
                    kept.pixels.data(), owner);
+}
+
+py::array adopted(std::vector<CloudPoint> points) {
+  auto owned = std::make_unique<std::vector<CloudPoint>>(std::move(points));
+  const std::vector<CloudPoint>& kept = *owned;
+  const py::capsule owner(owned.release(),
+                          [](void* memory) { delete static_cast<std::vector<CloudPoint>*>(memory); });
+  return view_of_records(kept, owner);
 }
 
 template <class T>

@@ -10,6 +10,7 @@
 #include "core/image.h"
 #include "core/profile.h"
 #include "core/stripe.h"
+#include "reconstruct/cloud.h"
 
 namespace lightstripe::python {
 
@@ -24,8 +25,9 @@ py::array view_of(const std::vector<ProfilePoint>& points, py::handle owner);
 std::vector<StripePoint> stripe_points(const py::array& records);
 std::vector<ProfilePoint> profile_points(const py::array& records);
 
-/// An array that takes over the picture's memory.
+/// An array that takes over the memory of the picture or of the points.
 py::array adopted(Image8 image);
+py::array adopted(std::vector<CloudPoint> points);
 
 /// Looks at a picture of rows x columns, uint8 or uint16, whose rows are whole in memory (they may lie apart,
 /// as those of a crop); ValueError for another layout.

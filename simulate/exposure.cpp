@@ -42,6 +42,15 @@ void add_blobs(Image<float>& light, const std::vector<Blob>& blobs, const Reflec
   }
 }
 
+Image<float> channel_light(const Image<float>& total, const Image<float>& laser, const ColourCamera& camera,
+                           int channel) {
+  const int away = std::abs(channel - static_cast<int>(camera.laser));
+  const auto missing = static_cast<float>(1 - std::pow(camera.crosstalk, away));
+  Image<float> out = total;
+  for (std::size_t i = 0; i < laser.pixels.size(); ++i) out.pixels[i] -= missing * laser.pixels[i];
+  return out;
+}
+
 Image8 expose(const Image<float>& light, const Imaging& imaging, std::uint64_t seed, std::uint64_t stream) {
   Image8 out(light.width, light.height);
   const double read2 = imaging.read_noise * imaging.read_noise;
@@ -55,6 +64,30 @@ Image8 expose(const Image<float>& light, const Imaging& imaging, std::uint64_t s
     }
   }
   return out;
+}
+
+std::vector<std::uint8_t> expose_rgb(const Image<float>& total, const Image<float>& laser,
+                                     const Imaging& imaging, std::uint64_t seed, std::uint64_t stream) {
+  std::vector<std::uint8_t> out(3 * total.pixels.size());
+  for (int channel = 0; channel < 3; ++channel) {
+    const Image8 seen = expose(channel_light(total, laser, imaging.colour, channel), imaging, seed,
+                               stream + static_cast<std::uint64_t>(channel));
+    for (std::size_t i = 0; i < seen.pixels.size(); ++i)
+      out[3 * i + static_cast<std::size_t>(channel)] = seen.pixels[i];
+  }
+  return out;
+}
+
+Image8 expose_bayer(const Image<float>& total, const Image<float>& laser, const Imaging& imaging,
+                    std::uint64_t seed, std::uint64_t stream) {
+  Image<float> mosaic = total;
+  for (int channel = 0; channel < 3; ++channel) {
+    const Image<float> light = channel_light(total, laser, imaging.colour, channel);
+    for (int y = 0; y < light.height; ++y)
+      for (int x = 0; x < light.width; ++x)
+        if (x % 2 + y % 2 == channel) mosaic(x, y) = light(x, y);
+  }
+  return expose(mosaic, imaging, seed, stream);
 }
 
 }  // namespace lightstripe

@@ -85,6 +85,29 @@ void check_imaging(const Imaging& o, const Rules& rules) {
   const bool power_of_two = o.samples > 0 && (o.samples & (o.samples - 1)) == 0;
   rules.require(power_of_two && o.samples != 2 && o.samples <= 4096, "imaging.samples",
                 "1, 4, 8, 16, ... 4096");
+  rules.require(o.speckle.contrast >= 0 && o.speckle.contrast <= 1, "imaging.speckle.contrast", "0 to 1");
+  rules.require(o.speckle.contrast == 0 || o.speckle.contrast >= 0.05, "imaging.speckle.contrast",
+                "0, or 0.05 to 1: less takes too many looks to draw and no camera shows it");
+  rules.require(o.speckle.grain_px >= 0.3 && o.speckle.grain_px <= 20, "imaging.speckle.grain_px",
+                "0.3 to 20");
+  rules.require(o.colour.crosstalk >= 0 && o.colour.crosstalk <= 1, "imaging.colour.crosstalk", "0 to 1");
+}
+
+void check_material(const Material& o, const std::string& name, const Rules& rules) {
+  rules.require(o.texture.contrast >= 0 && o.texture.contrast <= 1, name + ".material.texture.contrast",
+                "0 to 1");
+  rules.require(o.texture.grain_mm > 0, name + ".material.texture.grain_mm", "must be positive");
+  rules.require(o.glow.share >= 0, name + ".material.glow.share", "must not be negative");
+  rules.require(o.glow.reach_mm > 0, name + ".material.glow.reach_mm", "must be positive");
+}
+
+void check_materials(const Scene& o, const Rules& rules) {
+  check_material(o.rail.material, "rail", rules);
+  check_material(o.wheel.material, "wheel", rules);
+  for (const StepsObject& steps : o.steps) check_material(steps.material, "steps", rules);
+  for (const SphereObject& sphere : o.spheres) check_material(sphere.material, "spheres", rules);
+  for (const CylinderObject& object : o.cylinders) check_material(object.material, "cylinders", rules);
+  if (o.ground) check_material(o.ground->material, "ground", rules);
 }
 
 void check_boards(const BoardPlan& o, const Rules& rules) {
@@ -174,6 +197,7 @@ void Scene::check(const std::string& origin) const {
   check_boards(boards, rules);
   check_plans(*this, rules);
   check_objects(*this, rules);
+  check_materials(*this, rules);
 }
 
 Scene read_scene(const std::filesystem::path& path) {

@@ -12,11 +12,37 @@
 
 namespace lightstripe {
 
+/// Stains, grain, machining marks: the albedo varies over the surface.
+struct Texture {
+  double contrast = 0;  ///< standard deviation / mean
+  double grain_mm = 1;  ///< size of the spots
+};
+
+template <class V>
+void visit_fields(V&& v, Texture& o) {
+  v("contrast", o.contrast, "standard deviation / mean of the albedo; 0: even");
+  v("grain_mm", o.grain_mm, "size of the spots");
+}
+
+/// Laser light that spreads below the surface (plastic, marble, skin): a tail on one side of the stripe.
+struct Glow {
+  double share = 0;     ///< of the stripe's peak
+  double reach_mm = 2;  ///< over which it falls to 1/e
+};
+
+template <class V>
+void visit_fields(V&& v, Glow& o) {
+  v("share", o.share, "peak of the tail over that of the stripe; 0: opaque");
+  v("reach_mm", o.reach_mm, "over which the tail falls to 1/e");
+}
+
 /// Matt (Lambert) reflection with an optional highlight (Phong).
 struct Material {
   double albedo = 0.6;
   double specular = 0;    ///< share of the light in the highlight's middle
   double shininess = 30;  ///< Phong's exponent
+  Texture texture = {};
+  Glow glow = {};
 };
 
 template <class V>
@@ -24,6 +50,8 @@ void visit_fields(V&& v, Material& o) {
   v("albedo", o.albedo);
   v("specular", o.specular);
   v("shininess", o.shininess);
+  v("texture", o.texture);
+  v("glow", o.glow);
 }
 
 /// An endless rail along x. Wear grows linearly from the first frame to the last; each frame sees one

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/fields.h"
+#include "simulate/speckle.h"
 
 namespace lightstripe {
 
@@ -63,6 +64,32 @@ void visit_fields(V&& v, SceneSensor& o) {
 /// rail.
 std::vector<SceneSensor> two_sensor_rail_rig();
 
+enum class Pictures { kGrey, kRgb, kBayer };
+constexpr std::array<EnumName<Pictures>, 3> enum_names(Pictures) {
+  return {{{Pictures::kGrey, "grey"}, {Pictures::kRgb, "rgb"}, {Pictures::kBayer, "bayer"}}};
+}
+
+enum class LaserColour { kRed, kGreen, kBlue };
+constexpr std::array<EnumName<LaserColour>, 3> enum_names(LaserColour) {
+  return {{{LaserColour::kRed, "red"}, {LaserColour::kGreen, "green"}, {LaserColour::kBlue, "blue"}}};
+}
+
+/// A colour camera: ambient light is white, the laser shines into its own channel and leaks into the others,
+/// so that an overexposed stripe has a white core and a coloured rim.
+struct ColourCamera {
+  Pictures pictures = Pictures::kGrey;
+  LaserColour laser = LaserColour::kRed;
+  double crosstalk = 0.12;
+};
+
+template <class V>
+void visit_fields(V&& v, ColourCamera& o) {
+  v("pictures", o.pictures,
+    "grey (the laser's own channel) | rgb | bayer (RGGB mosaic as the sensor gives it)");
+  v("laser", o.laser, "red | green | blue");
+  v("crosstalk", o.crosstalk, "share of the laser in the neighbouring channel; its square in the one beyond");
+}
+
 /// From light to grey levels. Ambient levels: a white surface that faces the lamp.
 struct Imaging {
   double board_ambient = 215;             ///< board images, laser off
@@ -77,6 +104,11 @@ struct Imaging {
   double read_noise = 1.5;                ///< grey levels, 1 sigma
   double electrons_per_level = 40;        ///< shot noise: variance = level / this; 0 = none
   int samples = 16;                       ///< rays a pixel where the picture changes: 1, or 4, 8, 16 ...
+  Speckle speckle;                        ///< the laser light's grain
+  ColourCamera colour;
+
+  /// Whether the laser's light has to be known apart from the lamp's.
+  bool separates_laser() const { return speckle.contrast > 0 || colour.pictures != Pictures::kGrey; }
 };
 
 template <class V>
@@ -93,6 +125,8 @@ void visit_fields(V&& v, Imaging& o) {
   v("read_noise", o.read_noise, "grey levels, 1 sigma");
   v("electrons_per_level", o.electrons_per_level, "shot noise; 0 = none");
   v("samples", o.samples, "rays a pixel where the picture changes: 1, 4, 8, 16, ...");
+  v("speckle", o.speckle);
+  v("colour", o.colour);
 }
 
 }  // namespace lightstripe

@@ -21,6 +21,7 @@ namespace lightstripe {
 namespace {
 
 constexpr std::uint64_t kBlobStream = 0x626c6f62;  // apart from the same image's noise
+constexpr std::uint64_t kSpeckleStream = 0x73706563;
 
 /// A name as a number (FNV-1a), so that a picture's noise depends on what it is called, not on how many came
 /// before.
@@ -50,14 +51,39 @@ struct Studio {
   const Scene& scene;
   const ImagePlan& plan;
   std::vector<RayGrid> rays;  ///< one a sensor
-  std::vector<Image<float>>
-      stills;  ///< light of the scan's frames, one a sensor, where all frames are the same
+  std::vector<Light> stills;  ///< of the scan's frames, one a sensor, where all frames are the same
   Rigid3 rig_from_world;
 };
 
-Image<float> light_of(const Studio& studio, const PlannedImage& image) {
+Light light_of(const Studio& studio, const PlannedImage& image) {
   if (image.frame >= 0 && !studio.stills.empty()) return studio.stills[image.sensor];
-  return render(studio.plan.worlds[image.world], image.view, studio.rays[image.sensor], studio.scene.imaging);
+  return render_light(studio.plan.worlds[image.world], image.view, studio.rays[image.sensor],
+                      studio.scene.imaging);
+}
+
+/// Gives the laser's light its grain.
+void add_grain(const Scene& scene, std::uint64_t stream, Light& light) {
+  if (light.laser.empty()) return;
+  const Image<float> even = light.laser;
+  add_speckle(even, scene.imaging.speckle, static_cast<std::uint64_t>(scene.seed), stream ^ kSpeckleStream,
+              light.laser);
+  for (std::size_t i = 0; i < even.pixels.size(); ++i)
+    light.total.pixels[i] += light.laser.pixels[i] - even.pixels[i];
+}
+
+void write_exposure(const Scene& scene, const Light& light, std::uint64_t stream,
+                    const std::filesystem::path& file) {
+  const auto seed = static_cast<std::uint64_t>(scene.seed);
+  const Imaging& imaging = scene.imaging;
+  switch (imaging.colour.pictures) {
+    case Pictures::kGrey:
+      return write_image(file, expose(light.total, imaging, seed, stream));
+    case Pictures::kRgb:
+      return write_rgb_image(file, expose_rgb(light.total, light.laser, imaging, seed, stream),
+                             light.total.width, light.total.height);
+    case Pictures::kBayer:
+      return write_image(file, expose_bayer(light.total, light.laser, imaging, seed, stream));
+  }
 }
 
 /// Renders one image, writes it, and returns its rows of stripes.csv.
@@ -65,12 +91,14 @@ std::string make_image(const Studio& studio, const PlannedImage& image, const st
   const Scene& scene = studio.scene;
   const auto seed = static_cast<std::uint64_t>(scene.seed);
   const std::uint64_t stream = stream_of(image.file);
-  Image<float> light = light_of(studio, image);
+  Light light = light_of(studio, image);
+  add_grain(scene, stream, light);
   std::vector<Blob> blobs;
   if (image.frame >= 0)
-    blobs = draw_blobs(scene.reflections, light.width, light.height, Random(seed, stream ^ kBlobStream));
-  add_blobs(light, blobs, scene.reflections);
-  write_image(folder / image.file, expose(light, scene.imaging, seed, stream));
+    blobs = draw_blobs(scene.reflections, light.total.width, light.total.height,
+                       Random(seed, stream ^ kBlobStream));
+  add_blobs(light.total, blobs, scene.reflections);
+  write_exposure(scene, light, stream, folder / image.file);
   if (image.view.laser_power == 0) return "";
   const auto points = trace_stripe(studio.plan.worlds[image.world], image.view, scene.imaging);
   return stripe_rows(image.file, image.view.sensor->name, image.frame, points, studio.rig_from_world, blobs,
@@ -84,7 +112,7 @@ Studio prepare(const Scene& scene, const ImagePlan& plan, const Rig& rig, int th
     studio.rays[i] = make_ray_grid(plan.sensors[i], blur_margin(scene.imaging) + 1);
   });
   if (scene.scan.frames == 0 || !plan.still_scan) return studio;
-  std::vector<Image<float>> stills(plan.sensors.size());
+  std::vector<Light> stills(plan.sensors.size());
   in_parallel(threads, plan.images.size(), [&](std::size_t i) {
     const PlannedImage& image = plan.images[i];
     if (image.frame == 0) stills[image.sensor] = light_of(studio, image);

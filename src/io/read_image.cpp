@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "io/atomic_file.h"
 #include "io/decode_picture.h"
+#include "io/decode_tiff.h"
 #include "io/grey_channel.h"
 #include "io/image_header.h"
 #include "io/images.h"
@@ -31,9 +32,15 @@ void check_header(const ImageHeader& header, const std::string& name) {
   if (header.width == 0 || header.height == 0) throw Error(name, "has no pixels", kExportAgain);
 }
 
-/// Grey or BGR, 8 or 16 bits, alpha dropped, not turned by EXIF.
-cv::Mat decoded(std::string_view bytes, const std::string& name) {
+/// Grey or BGR, 8 or 16 bits, alpha dropped, not turned by EXIF or TIFF's Orientation. A white that the file
+/// tells goes into the header.
+cv::Mat decoded(std::string_view bytes, const std::string& name, ImageHeader& header) {
   cv::Mat picture;
+  if (header.format == ImageFormat::kTiff) {
+    TiffPicture tiff = decode_tiff(bytes, name);
+    header.max_value = tiff.white;
+    return std::move(tiff.pixels);
+  }
   try {
     const cv::Mat buffer(1, static_cast<int>(bytes.size()), CV_8UC1, const_cast<char*>(bytes.data()));
     picture = cv::imdecode(buffer, cv::IMREAD_ANYDEPTH | cv::IMREAD_ANYCOLOR | cv::IMREAD_IGNORE_ORIENTATION);
@@ -85,7 +92,7 @@ std::optional<GreyImage> plain_picture(std::string_view bytes, const ImageHeader
 GreyImage decode_picture(std::string_view bytes, const std::string& name, Channel channel, Bits bits,
                          Channel* chosen) {
   if (bytes.empty()) throw Error(name, "is empty", kExportAgain);
-  const ImageHeader header = inspect_image(bytes);
+  ImageHeader header = inspect_image(bytes);
   check_header(header, name);
   if (auto plain = plain_picture(bytes, header, bits)) {
     if (channel == Channel::kAuto) channel = Channel::kGray;
@@ -93,7 +100,7 @@ GreyImage decode_picture(std::string_view bytes, const std::string& name, Channe
     if (chosen != nullptr) *chosen = channel;
     return std::move(*plain);
   }
-  cv::Mat picture = decoded(bytes, name);
+  cv::Mat picture = decoded(bytes, name, header);
   if (picture.cols != header.width || picture.rows != header.height)
     throw Error(name, "cannot be decoded as its header says", kExportAgain);
   const bool wide = bits == Bits::kKept && picture.type() == CV_16UC1;

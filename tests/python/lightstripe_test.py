@@ -87,6 +87,60 @@ def test_an_unknown_option_is_named():
         lightstripe.extract(stripe_image(), lines={"min_lenght": 3})
 
 
+def test_a_wrong_option_is_named_once():
+    with pytest.raises(lightstripe.Error) as caught:
+        lightstripe.extract(stripe_image(), strip_width=6)
+    assert str(caught.value).count("strip_width") == 1
+
+
+def test_options_are_python_values():
+    picture = stripe_image()
+    as_text = lightstripe.extract(picture, roi="0,20,100,80", thresholds="40,90", smoothing="true").stripes[0]
+    as_values = lightstripe.extract(picture, roi=(0, 20, 100, 80), thresholds=[40, 90], smoothing=True).stripes[0]
+    assert np.array_equal(as_text, as_values)
+    assert as_values["x"].max() < 100
+    assert len(lightstripe.extract(picture, stripe_width=None, sigma=2).stripes) == 1
+    with pytest.raises(TypeError, match="roi"):
+        lightstripe.extract(picture, roi=(0, None, 1, 1))
+
+
+def test_flags_of_points_are_named():
+    clipped = np.minimum(stripe_image().astype(int) * 3, 255).astype(np.uint8)
+    points = lightstripe.extract(clipped, stripe_width=8).stripes[0]
+    assert (points["flags"] & lightstripe.StripeFlag.SATURATED).any()
+
+
+def test_none_where_an_object_belongs_is_a_type_error(tmp_path):
+    with pytest.raises(TypeError):
+        lightstripe.write_profiles(tmp_path / "profiles.csv", [None])
+    with pytest.raises(TypeError):
+        lightstripe.Extraction([None])
+    assert not (tmp_path / "profiles.csv").exists()
+
+
+def test_objects_describe_themselves(scan):
+    rig = lightstripe.read_rig(scan / "truth/rig.yaml")
+    assert repr(rig) == "<lightstripe.Rig of solo, linear motion>"
+    assert repr(rig.sensors[0]) == "<lightstripe.Sensor 'solo', 480 x 350 px, 1 laser plane>"
+    assert "1 stripe," in repr(lightstripe.extract(stripe_image()))
+    assert "frame 0" in repr(lightstripe.read_profiles(scan / "profiles.csv")[0])
+
+
+def test_motion_and_quality_are_those_of_the_file(scan):
+    rig = lightstripe.read_rig(scan / "truth/rig.yaml")
+    assert rig.motion["type"] == "linear" and rig.motion["moves"] == "rig"
+    assert np.array_equal(rig.motion["direction"], [1, 0, 0])
+    assert rig.quality["section_shape_sigma_mm"] is None  # a true rig has no predicted error
+
+
+def test_a_cloud_is_a_record_array(scan):
+    cloud = lightstripe.read_cloud(scan / "cloud.ply")
+    points = np.concatenate([profile.points for profile in lightstripe.read_profiles(scan / "profiles.csv")])
+    assert len(cloud) == len(points)
+    assert np.allclose(cloud["z"], points["z"], atol=1e-3)
+    assert cloud["frame"].max() == 5
+
+
 def test_an_empty_picture_gives_no_stripe():
     assert lightstripe.extract(np.zeros((0, 0), np.uint8)).stripes == []
 

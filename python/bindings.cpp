@@ -1,14 +1,17 @@
 // SPDX-FileCopyrightText: 2026 The lightstripe authors
 // SPDX-License-Identifier: Apache-2.0
-// The Python module `lightstripe`: extract, load a rig, triangulate, read and write profiles. Thin on
-// purpose: what a function does stands at the function of the same name in the library.
+// lightstripe._core, the C++ half of the Python package `lightstripe`. Thin on purpose: what a function does
+// stands at the function of the same name in the library.
 #include <pybind11/eigen.h>
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <fmt/format.h>
+
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,6 +23,7 @@
 #include "io/rig_file.h"
 #include "io/tables.h"
 #include "options.h"
+#include "reconstruct/cloud.h"
 #include "reconstruct/triangulate.h"
 
 namespace lightstripe::python {
@@ -59,10 +63,43 @@ Profile triangulate(const std::vector<const ExtractionResult*>& extractions, con
   return profile;
 }
 
-void write_profiles(const fs::path& path, const std::vector<const Profile*>& profiles) {
+void write_profiles(const fs::path& path, const py::iterable& profiles) {
   std::string text(kProfilesHeader);
-  for (const Profile* profile : profiles) append_profile(text, *profile);
+  for (const py::handle profile : profiles) {
+    if (!py::isinstance<Profile>(profile))
+      throw py::type_error("write_profiles takes Profile objects, not " +
+                           py::repr(py::type::of(profile)).cast<std::string>());
+    append_profile(text, profile.cast<const Profile&>());
+  }
   write_file(path, text);
+}
+
+/// The motion as a dict with the keys of rig.yaml; None for a rig without one.
+std::optional<py::dict> motion_of(const Rig& rig) {
+  using py::literals::operator""_a;
+  const Motion& motion = rig.motion;
+  const char* const moves = motion.rig_moves ? "rig" : "object";
+  switch (motion.type) {
+    case MotionType::kNone:
+      return std::nullopt;
+    case MotionType::kLinear:
+      return py::dict("type"_a = "linear", "direction"_a = motion.direction, "moves"_a = moves);
+    case MotionType::kRotary:
+      break;
+  }
+  return py::dict("type"_a = "rotary", "axis_point"_a = motion.axis_point,
+                  "axis_direction"_a = motion.axis_direction, "moves"_a = moves);
+}
+
+/// What the calibration says of itself; a value that is not known is None.
+py::dict quality_of(const Rig& rig) {
+  using py::literals::operator""_a;
+  const RigQuality& quality = rig.quality;
+  const auto known = [](double value) { return value > 0 ? py::object(py::float_(value)) : py::none(); };
+  return py::dict("section_shape_sigma_mm"_a = known(quality.section_shape_sigma_mm),
+                  "section_absolute_sigma_mm"_a = known(quality.section_absolute_sigma_mm),
+                  "cross_validation_ratio"_a = known(quality.cross_validation_ratio),
+                  "weakest"_a = quality.weakest, "warnings"_a = quality.warnings, "sigma"_a = quality.sigma);
 }
 
 Channel channel_of(const std::string& name) {
@@ -103,11 +140,26 @@ void add_rig(py::module_& module) {
           },
           "list of (normal, offset in mm): normal . p = offset in the camera frame")
       .def_property_readonly(
-          "rig_from_camera", [](const Sensor& s) { return matrix_of(s.rig_from_camera); }, "4 x 4, mm");
+          "rig_from_camera", [](const Sensor& s) { return matrix_of(s.rig_from_camera); }, "4 x 4, mm")
+      .def("__repr__", [](const Sensor& s) {
+        return fmt::format("<lightstripe.Sensor '{}', {} x {} px, {} laser plane{}>", s.name, s.camera.width,
+                           s.camera.height, s.laser_planes.size(), s.laser_planes.size() == 1 ? "" : "s");
+      });
   py::class_<Rig>(module, "Rig", "A calibrated rig, as rig.yaml holds it.")
       .def_readonly("sensors", &Rig::sensors)
-      .def("to_yaml", &rig_to_yaml, "the text of rig.yaml");
-  module.def("read_rig", &read_rig, py::arg("path"));
+      .def_property_readonly("motion", &motion_of, "dict with the keys of rig.yaml, or None")
+      .def_property_readonly("quality", &quality_of,
+                             "dict: predicted errors in mm (None where not known), warnings, sigma of every "
+                             "parameter by name")
+      .def("to_yaml", &rig_to_yaml, "the text of rig.yaml")
+      .def("__repr__", [](const Rig& rig) {
+        std::string names;
+        for (const Sensor& sensor : rig.sensors) names += (names.empty() ? "" : ", ") + sensor.name;
+        const bool moves = rig.motion.type != MotionType::kNone;
+        return fmt::format("<lightstripe.Rig of {}, {} motion>", names,
+                           moves ? enum_name(rig.motion.type) : "no");
+      });
+  module.def("read_rig", &read_rig, py::arg("path"), "rig.yaml to a Rig");
 }
 
 void add_extraction(py::module_& module) {
@@ -125,11 +177,23 @@ void add_extraction(py::module_& module) {
       .def_readonly("sigma", &ExtractionResult::sigma, "scale of the kernels, px")
       .def_readonly("threshold_low", &ExtractionResult::threshold_low)
       .def_readonly("threshold_high", &ExtractionResult::threshold_high)
-      .def_readonly("noise", &ExtractionResult::noise, "grey levels, 1 sigma");
+      .def_readonly("noise", &ExtractionResult::noise, "grey levels, 1 sigma")
+      .def("__repr__", [](const ExtractionResult& result) {
+        std::size_t points = 0;
+        for (const Stripe& stripe : result.stripes) points += stripe.points.size();
+        return fmt::format("<lightstripe.Extraction of {} stripe{}, {} points, sigma {:.2f} px>",
+                           result.stripes.size(), result.stripes.size() == 1 ? "" : "s", points,
+                           result.sigma);
+      });
+  py::enum_<StripeFlag>(module, "StripeFlag", py::arithmetic(), "Bits of a stripe point's `flags`.")
+      .value("BRIDGED", kStripeBridged, "placed across a gap or a crossing")
+      .value("SATURATED", kStripeSaturated, "the stripe's top is clipped")
+      .value("ASYMMETRIC", kStripeAsymmetric, "the two flanks differ");
   module.def("extract", &extract, py::arg("image"),
              "Centre lines of the light stripes of a grey picture (uint8 or uint16, rows x columns; not "
              "copied). Keywords are the "
-             "options of the extraction: stripe_width=6, method=\"steger\", lines={\"min_length\": 20}.");
+             "options of the extraction: stripe_width=6, method=\"steger\", roi=(0, 0, 100, 100), "
+             "thresholds=(20, 60), lines={\"min_length\": 20}.");
   module.def(
       "read_image",
       [](const fs::path& path, const std::string& channel) {
@@ -154,7 +218,11 @@ void add_profiles(py::module_& module) {
       .def_readonly("num_missed", &Profile::num_missed, "stripe points that gave no point")
       .def_property_readonly(
           "points", [](const py::object& self) { return view_of(self.cast<const Profile&>().points, self); },
-          "record array (x, y, z, u, v, sigma in mm ...) that looks at the profile's own memory");
+          "record array (x, y, z, u, v, sigma in mm ...) that looks at the profile's own memory")
+      .def("__repr__", [](const Profile& profile) {
+        return fmt::format("<lightstripe.Profile of frame {}, travel {}, {} points>", profile.frame,
+                           profile.travel, profile.points.size());
+      });
   module.def("triangulate", &triangulate, py::arg("extractions"), py::arg("rig"), py::arg("travel") = 0.0,
              py::arg("frame") = 0,
              "One frame's points: a list with the extraction of each sensor of the rig, None where one has "
@@ -162,11 +230,15 @@ void add_profiles(py::module_& module) {
   module.def("read_profiles", &read_profiles, py::arg("path"), "profiles.csv to a list of profiles");
   module.def("write_profiles", &write_profiles, py::arg("path"), py::arg("profiles"),
              "profiles.csv, written aside and renamed");
+  module.def(
+      "read_cloud", [](const fs::path& path) { return adopted(read_cloud(path)); }, py::arg("path"),
+      "A .ply or .pcd cloud of `reconstruct` to a record array (x, y, z in mm, intensity, frame, sensor, "
+      "line, sigma in mm).");
 }
 
 }  // namespace
 
-PYBIND11_MODULE(lightstripe, module) {
+PYBIND11_MODULE(_core, module) {
   module.doc() =
       "Line-structured-light 3D scanning: extract laser stripes, triangulate them with a calibrated rig.";
   module.attr("__version__") = LIGHTSTRIPE_VERSION;
