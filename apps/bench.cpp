@@ -11,12 +11,14 @@
 
 #include "apps/bench_references.h"
 #include "apps/command.h"
+#include "apps/options.h"
 #include "core/error.h"
 #include "extraction/extract_stripes.h"
 #include "extraction/workspace.h"
 #include "io/atomic_file.h"
 #include "io/images.h"
 #include "io/tables.h"
+#include "pipeline/job.h"
 
 namespace lightstripe {
 namespace {
@@ -198,9 +200,8 @@ std::string table_row(const Timing& t, double steger_ms) {
   return row;
 }
 
-int run_bench(BenchArguments arguments) {
-  arguments.common.threads = 1;
-  const ThreadLimit limit(arguments.common);
+int run_bench(const BenchArguments& arguments) {
+  const JobThreads one_thread(1);
   ExtractionOptions options;
   apply_overrides(options, arguments.overrides);
   std::string csv = "image,method,median_ms,points\n";

@@ -5,19 +5,25 @@
 #include <algorithm>
 #include <memory>
 
-#include "apps/calibrate.h"
 #include "apps/command.h"
-#include "apps/compare_with_truth.h"
-#include "apps/measure.h"
-#include "apps/reconstruct.h"
+#include "apps/interrupt.h"
+#include "apps/options.h"
 #include "apps/simulate.h"
-#include "core/error.h"
 #include "extraction/draw/overlay.h"
+#include "extraction/extract_stripes.h"
+#include "io/atomic_file.h"
 #include "io/images.h"
 #include "io/rig_file.h"
 #include "io/session_file.h"
 #include "io/tables.h"
+#include "pipeline/calibrate_job.h"
+#include "pipeline/measure_job.h"
+#include "pipeline/reconstruct_job.h"
+#include "report/calibration_report.h"
+#include "report/measure_report.h"
 #include "report/preview.h"
+#include "report/scan_products.h"
+#include "truth/compare_with_truth.h"
 
 namespace lightstripe {
 namespace {
@@ -85,56 +91,85 @@ std::string accuracy_table(const RigError& rig, const CloudError& cloud,
 
 /// Empty where the scene has neither rail nor wheel, or none of its sections could be measured.
 std::vector<QuantityError> measure_wear(const Scene& scene, const SimulationSummary& simulated,
-                                        const fs::path& folder, const CommonOptions& quiet) {
+                                        const fs::path& folder, int threads) {
   if (!fs::exists(simulated.truth / "wear.csv")) return {};
-  MeasureArguments arguments;
-  arguments.common = quiet;
-  arguments.common.output = (folder / "measurements.csv").string();
-  arguments.profiles = (folder / "profiles.csv").string();
-  arguments.kind = scene.turns() ? ObjectKind::kWheel : ObjectKind::kRail;
-  arguments.nominal = scene.turns() ? scene.wheel.profile : scene.rail.profile;
-  arguments.rig = (folder / "rig.yaml").string();
-  arguments.scan = simulated.scan.string();
-  arguments.report = (folder / "measure.html").string();
-  const MeasureOutcome outcome = measure_profiles(arguments);
-  if (outcome.num_ok == 0) return {};
-  return compare_wear(outcome.rows, arguments.kind, simulated.truth);
+  MeasureJob job;
+  job.profiles = folder / "profiles.csv";
+  job.kind = scene.turns() ? ObjectKind::kWheel : ObjectKind::kRail;
+  job.reference.nominal = scene.turns() ? scene.wheel.profile : scene.rail.profile;
+  job.rig = folder / "rig.yaml";
+  job.table = folder / "measurements.csv";
+  job.threads = threads;
+  const MeasureResult result = measure(job);
+  for (const auto& warning : result.warnings) warn(warning);
+  const fs::path page = folder / "measure.html";
+  write_file(page, measure_report_html(job, result, {page, simulated.scan, "cloud.html"}));
+  if (result.num_ok == 0) return {};
+  return compare_wear(result.rows, job.kind, simulated.truth);
+}
+
+CalibrateResult calibrate_rendered(const SimulationSummary& simulated, const fs::path& folder, int threads) {
+  CalibrateJob job = read_calibrate_job(simulated.session);
+  job.rig = folder / "rig.yaml";
+  job.threads = threads;
+  CalibrateResult result = calibrate(job);
+  for (const auto& warning : result.warnings) warn(warning);
+  write_file(folder / "calibration.html", calibration_report(result.seen, result.calibration));
+  return result;
+}
+
+ReconstructResult reconstruct_rendered(const SimulationSummary& simulated, const fs::path& folder,
+                                       int threads) {
+  ReconstructJob job = read_reconstruct_job(simulated.scan);
+  job.cloud = folder / "cloud.ply";
+  job.profiles = folder / "profiles.csv";
+  job.threads = threads;
+  CloudPreview preview;
+  draw_preview_of(job, preview, folder / "cloud.png");
+  ScanProducts products;
+  products.view = folder / "cloud.html", products.height_map = folder / "map.tif",
+  products.mesh = folder / "mesh.stl";
+  job.before_end = [&job, products, before = job.before_end] {
+    before();
+    write_scan_products(job, products);
+  };
+  const InterruptWatch interrupt;
+  return reconstruct(job, {}, interrupt.token());
+}
+
+std::string list_of_files(const fs::path& folder, bool measured) {
+  return fmt::format(
+      "\nlook       {0}/cloud.html (in a browser)\n"
+      "cloud      {0}/cloud.ply (picture: {0}/cloud.png)\nheight map {0}/map.tif\n"
+      "mesh       {0}/mesh.stl\nsections   {0}/profiles.csv\n"
+      "{1}overlays   {0}/overlay/*.png\nrig        {0}/rig.yaml (report: {0}/calibration.html)\n"
+      "truth      {0}/truth/",
+      folder.string(),
+      measured ? fmt::format("measured   {0}/measurements.csv (report: {0}/measure.html)\n", folder.string())
+               : "");
 }
 
 int run_demo(const std::string& scene_file, bool wheel, const CommonOptions& common) {
   const fs::path folder = common.output.empty() ? "demo-output" : common.output;
-  CommonOptions stage = common;
-
   const Scene scene = !scene_file.empty() ? read_scene(scene_file) : wheel ? wheel_scene() : Scene{};
   say(common, fmt::format("1/4 rendering a calibration session and a scan of a {}",
                           scene.turns() ? "turning wheel" : "rail"));
-  stage.output = folder.string();
-  const SimulationSummary simulated = simulate_with_progress(scene, stage);
+  const SimulationSummary simulated =
+      simulate_with_progress(scene, {common.threads, common.quiet, folder.string()});
 
   say(common, "2/4 calibrating the rig from the board images");
-  stage.output = (folder / "rig.yaml").string();
-  stage.quiet = true;
-  CalibrationFiles calibration;
-  calibration.report = (folder / "calibration.html").string();
-  if (const int code = calibrate_session(simulated.session.string(), {}, {}, stage, calibration);
-      code != kExitDone)
-    return code;
+  const CalibrateResult calibration = calibrate_rendered(simulated, folder, common.threads);
+  if (!calibration.usable()) return not_usable(calibration.not_usable);
 
   say(common, "3/4 reconstructing the scan");
-  ReconstructArguments arguments;
-  arguments.common = stage;
-  arguments.common.output = (folder / "cloud.ply").string();
-  arguments.scan = simulated.scan.string();
-  arguments.profiles = (folder / "profiles.csv").string();
-  arguments.preview = (folder / "cloud.png").string();
-  const ReconstructOutcome outcome = reconstruct_scan(arguments);
-  if (outcome.summary.points == 0) return not_usable("the scan gave no points");
+  const ReconstructResult scanned = reconstruct_rendered(simulated, folder, common.threads);
+  if (!scanned.usable()) return not_usable(scanned.not_usable);
   const std::vector<Profile> profiles = read_profiles(folder / "profiles.csv");
   write_overview(draw_overlays(read_scan(simulated.scan), folder / "overlay"), profiles,
                  folder / "overview.png");
 
   say(common, "4/4 measuring the sections\n");
-  const std::vector<QuantityError> wear = measure_wear(scene, simulated, folder, stage);
+  const std::vector<QuantityError> wear = measure_wear(scene, simulated, folder, common.threads);
 
   const Rig rig = read_rig(folder / "rig.yaml");
   const RigError rig_error = compare_rigs(rig, read_rig(simulated.truth / "rig.yaml"));
@@ -143,16 +178,9 @@ int run_demo(const std::string& scene_file, bool wheel, const CommonOptions& com
   say(common,
       fmt::format(
           "\n{} points from {} frames of {} sensors, {:.0f} frames/s with {} threads (PNG decoding included)",
-          outcome.summary.points, outcome.summary.frames, rig.sensors.size(),
-          static_cast<double>(outcome.summary.frames) / outcome.seconds, thread_count(common)));
-  say(common,
-      fmt::format("\ncloud      {0}/cloud.ply (picture: {0}/cloud.png)\nsections   {0}/profiles.csv\n"
-                  "{1}overlays   {0}/overlay/*.png\nrig        {0}/rig.yaml (report: {0}/calibration.html)\n"
-                  "truth      {0}/truth/",
-                  folder.string(),
-                  wear.empty() ? ""
-                               : fmt::format("measured   {0}/measurements.csv (report: {0}/measure.html)\n",
-                                             folder.string())));
+          scanned.summary.points, scanned.summary.frames, rig.sensors.size(),
+          static_cast<double>(scanned.summary.frames) / scanned.seconds, thread_count(common.threads)));
+  say(common, list_of_files(folder, !wear.empty()));
   return kExitDone;
 }
 

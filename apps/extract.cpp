@@ -1,26 +1,15 @@
 // SPDX-FileCopyrightText: 2026 The lightstripe authors
 // SPDX-License-Identifier: Apache-2.0
-#include "extraction/extract_stripes.h"
+#include "pipeline/extract_job.h"
 
 #include <fmt/format.h>
-#include <oneapi/tbb/enumerable_thread_specific.h>
-#include <oneapi/tbb/parallel_for.h>
-
-#include <filesystem>
-#include <fstream>
-#include <set>
 
 #include "apps/command.h"
-#include "apps/explain.h"
+#include "apps/options.h"
 #include "apps/progress.h"
 #include "core/error.h"
-#include "core/task_order.h"
-#include "extraction/draw/histogram_plot.h"
-#include "extraction/draw/overlay.h"
-#include "extraction/workspace.h"
-#include "io/atomic_file.h"
-#include "io/images.h"
-#include "io/tables.h"
+#include "report/explain_extraction.h"
+#include "report/extraction_pictures.h"
 
 namespace lightstripe {
 namespace {
@@ -36,22 +25,6 @@ struct ExtractArguments {
   Overrides overrides;
 };
 
-/// One picture a name; pictures of the same name from several folders keep apart by the folder's name in
-/// front.
-std::vector<fs::path> overlay_names(const std::vector<std::string>& images, const fs::path& folder) {
-  std::vector<fs::path> names;
-  std::set<std::string> taken;
-  for (const auto& image : images) {
-    const fs::path path(image);
-    std::string name = path.stem().string();
-    if (taken.contains(name)) name = path.parent_path().filename().string() + "_" + name;
-    for (int copy = 2; taken.contains(name); ++copy) name = fmt::format("{}_{}", path.stem().string(), copy);
-    taken.insert(name);
-    names.push_back(folder / (name + ".png"));
-  }
-  return names;
-}
-
 Channel parse_channel(const std::string& text) {
   for (const auto& [value, name] : enum_names(Channel{}))
     if (name == text) return value;
@@ -59,81 +32,27 @@ Channel parse_channel(const std::string& text) {
               "use auto, gray, red, green, blue, red-excess, green-excess or blue-excess");
 }
 
-struct Extracted {
-  std::string rows;
-  std::string explanation;
-  std::size_t lines = 0, points = 0;
-};
-
-/// What one thread keeps from image to image.
-struct ExtractMemory {
-  ExtractionWorkspace workspace;
-  ExtractionResult result;
-};
-
-Extracted extract_one(const std::string& file, Channel channel, const ExtractionOptions& options,
-                      const std::optional<fs::path>& overlay, bool explain, ExtractMemory& memory) {
-  const Image8 image = read_image(file, channel);
-  extract_stripes(image, options, memory.workspace, memory.result);
-  const ExtractionResult& result = memory.result;
-  Extracted out;
-  append_stripes(out.rows, file, result.stripes);
-  out.lines = result.stripes.size();
-  for (const auto& stripe : result.stripes) out.points += stripe.points.size();
-  if (overlay) write_rgb_image(*overlay, draw_overlay(image, result.stripes), image.width, image.height);
-  if (!explain) return out;
-  out.explanation = explain_extraction(file, options, result);
-  if (overlay) {
-    fs::path picture = *overlay;
-    picture.replace_filename(overlay->stem().string() + "_histogram.png");
-    write_rgb_image(picture, draw_histogram(compute_histogram(image.view()), result), kHistogramPlotWidth,
-                    kHistogramPlotHeight);
-  }
-  return out;
-}
-
 int run_extract(const ExtractArguments& arguments) {
-  const ThreadLimit limit(arguments.common);
-  ExtractionOptions options;
-  apply_overrides(options, arguments.overrides);
-  const Channel channel = parse_channel(arguments.channel);
+  ExtractJob job;
+  apply_overrides(job.extraction, arguments.overrides);
+  job.images = arguments.images;
+  job.channel = parse_channel(arguments.channel);
+  job.threads = arguments.common.threads;
+  if (!arguments.common.output.empty()) job.table = arguments.common.output;
   std::vector<fs::path> overlays;
-  if (!arguments.overlay_folder.empty()) overlays = overlay_names(arguments.images, arguments.overlay_folder);
-  const std::size_t total = arguments.images.size();
-  const std::size_t batch =
-      2 * static_cast<std::size_t>(thread_count(arguments.common));  // bounds the memory
-
-  AtomicFile file(arguments.common.output.empty() ? "stripes.csv" : arguments.common.output);
-  std::ofstream table(file.temporary(), std::ios::binary);
-  table << kStripesHeader;
-  Progress progress("extracting", "images", static_cast<std::int64_t>(total), arguments.common.quiet);
-  oneapi::tbb::enumerable_thread_specific<ExtractMemory> memories;
-  std::size_t lines = 0, points = 0;
-  for (std::size_t begin = 0; begin < total; begin += batch) {
-    std::vector<Extracted> results(std::min(batch, total - begin));
-    const auto extract_image = [&](std::size_t i) {
-      const std::size_t index = begin + i;
-      results[i] = extract_one(arguments.images[index], channel, options,
-                               overlays.empty() ? std::nullopt : std::optional(overlays[index]),
-                               arguments.explain, memories.local());
-      progress.step();
-    };
-    before_tasks();
-    oneapi::tbb::parallel_for(std::size_t{0}, results.size(), Task(extract_image));
-    after_tasks();
-    for (const auto& result : results) {
-      table << result.rows;
-      if (!result.explanation.empty()) say(arguments.common, result.explanation);
-      lines += result.lines;
-      points += result.points;
-    }
-  }
-  table.close();
-  if (!table) throw Error(file.path().string(), "writing failed", "check the disk's free space");
-  file.commit();
-  say(arguments.common,
-      fmt::format("{} images, {} lines, {} points -> {}", total, lines, points, file.path().string()));
-  if (points == 0)
+  if (!arguments.overlay_folder.empty()) overlays = overlay_files(arguments.images, arguments.overlay_folder);
+  std::vector<std::string> explanations(arguments.explain ? job.images.size() : 0);
+  job.on_image = [&](std::size_t i, const Image8& image, const ExtractionResult& result) {
+    if (!overlays.empty()) write_overlay(overlays[i], image, result);
+    if (!arguments.explain) return;
+    explanations[i] = explain_extraction(job.images[i], job.extraction, result);
+    if (!overlays.empty()) write_histogram(overlays[i], image, result);
+  };
+  if (arguments.explain) job.on_row = [&](std::size_t i) { say(arguments.common, explanations[i]); };
+  const ExtractResult result = extract(job, progress_line(arguments.common.quiet));
+  say(arguments.common, fmt::format("{} images, {} lines, {} points -> {}", result.images, result.lines,
+                                    result.points, job.table.string()));
+  if (!result.usable())
     return not_usable(
         "no stripe was found in any image; look at exposure and --channel, or give --stripe-width and "
         "--thresholds");

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "apps/command.h"
+#include "apps/options.h"
 #include "apps/self_description.h"
 #include "io/atomic_file.h"
 

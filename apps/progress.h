@@ -3,36 +3,17 @@
 // A progress line on stderr: done, rate, time left. Only on a terminal, and never when quiet.
 #pragma once
 
-#include <chrono>
 #include <cstdint>
-#include <mutex>
 #include <string>
+
+#include "pipeline/job.h"
 
 namespace lightstripe {
 
-class Progress {
- public:
-  /// `what`: the verb and the unit, "reconstructing", "frames".
-  Progress(std::string verb, std::string unit, std::int64_t total, bool quiet);
-  ~Progress();  ///< clears the line
-  Progress(const Progress&) = delete;
-  Progress& operator=(const Progress&) = delete;
+/// Draws the line, and clears it when the last copy of the callback goes. Empty where nothing is to be drawn.
+ProgressCallback progress_line(bool quiet);
 
-  /// One more is done; may be called from several threads.
-  void step();
-
- private:
-  void draw();
-
-  std::string verb_, unit_;
-  std::int64_t total_, done_ = 0;
-  bool shown_;
-  std::mutex mutex_;
-  std::chrono::steady_clock::time_point start_, last_drawn_;
-};
-
-/// The line that is drawn; a function of its own so that it can be tested.
-std::string progress_line(const std::string& verb, const std::string& unit, std::int64_t done,
-                          std::int64_t total, double seconds);
+/// The text of the line; a function of its own so that it can be tested.
+std::string progress_text(const JobProgress& progress, double seconds);
 
 }  // namespace lightstripe

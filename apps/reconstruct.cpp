@@ -1,27 +1,47 @@
 // SPDX-FileCopyrightText: 2026 The lightstripe authors
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/reconstruct.h"
+#include "pipeline/reconstruct_job.h"
 
 #include <fmt/format.h>
 
-#include <memory>
+#include "apps/command.h"
+#include "apps/interrupt.h"
+#include "apps/options.h"
+#include "apps/progress.h"
+#include "core/error.h"
+#include "io/images.h"
+#include "io/number_text.h"
+#include "report/preview.h"
+#include "report/scan_products.h"
 
 namespace lightstripe {
 namespace {
 
+struct ReconstructArguments {
+  CommonOptions common;
+  std::string scan, rig, profiles, preview;
+  std::string frames;  ///< "A:B": frames A to B - 1; either may be left out
+  bool strict = false, resume = false;
+  bool dry_run = false;  ///< only tell which frames there are
+  double checkpoint_s = 1;
+  ScanProducts products;
+  std::string filter;
+  Overrides extraction;
+};
+
 constexpr std::size_t kMaxShown = 5;
 
-void warn_of_skipped(const ReconstructOutcome& outcome, const std::string& output) {
-  const ScanSummary& summary = outcome.summary;
+void warn_of_skipped(const ReconstructResult& result, const std::string& output) {
+  const ScanSummary& summary = result.summary;
   if (summary.pictures_skipped > 0)
     warn(fmt::format("{} of {} pictures are skipped", summary.pictures_skipped,
                      summary.pictures + summary.pictures_skipped));
-  for (std::size_t i = 0; i < std::min(kMaxShown, outcome.skipped.size()); ++i)
-    warn(fmt::format("frame {} skipped: {}", outcome.skipped[i].frame, outcome.skipped[i].picture.reason));
-  if (outcome.skipped.size() > kMaxShown) warn(fmt::format("... and more, all named in {}.run.yaml", output));
-  if (!outcome.duplicate_pictures.empty())
+  for (std::size_t i = 0; i < std::min(kMaxShown, result.skipped.size()); ++i)
+    warn(fmt::format("frame {} skipped: {}", result.skipped[i].frame, result.skipped[i].picture.reason));
+  if (result.skipped.size() > kMaxShown) warn(fmt::format("... and more, all named in {}.run.yaml", output));
+  if (!result.duplicate_pictures.empty())
     warn(fmt::format("{} pictures have a number that another one has and are left out, the first: {}",
-                     outcome.duplicate_pictures.size(), outcome.duplicate_pictures.front()));
+                     result.duplicate_pictures.size(), result.duplicate_pictures.front()));
 }
 
 void warn_of_gaps(const ScanSummary& summary) {
@@ -39,41 +59,109 @@ void warn_of_gaps(const ScanSummary& summary) {
                      summary.rays_missed));
 }
 
-/// Why there is nothing, and what helps.
-std::string why_empty(const ReconstructOutcome& outcome) {
-  const ScanSummary& summary = outcome.summary;
-  if (summary.frames == 0)
-    return "none of the frames has a position (nothing is written); number the travel table's frames as the "
-           "pictures";
-  std::string text =
-      fmt::format("no stripe was found in any of the {} frames (nothing is written); ", summary.frames);
-  constexpr int kDark = 60;
-  if (outcome.brightest < kDark)
-    text +=
-        fmt::format("the pictures are dark, grey level {} at most: expose longer, or switch the laser on; ",
-                    outcome.brightest);
-  return text + "look at a frame with `lightstripe extract --overlay`";
+/// "A:B", "A:", ":B".
+void parse_frames(const std::string& text, ReconstructJob& job) {
+  if (text.empty()) return;
+  const std::size_t colon = text.find(':');
+  const std::string from = text.substr(0, colon),
+                    to = colon == std::string::npos ? "" : text.substr(colon + 1);
+  if (!from.empty()) job.first_frame = parse_integer(from);
+  if (!to.empty()) job.end_frame = parse_integer(to);
+  const bool unreadable = (!from.empty() && !job.first_frame) || (!to.empty() && !job.end_frame);
+  if (colon == std::string::npos || unreadable || job.first_frame.value_or(0) < 0 ||
+      (job.end_frame && *job.end_frame <= job.first_frame.value_or(0)))
+    throw Error("--frames", "'" + text + "' is no range of frames", "write A:B for the frames A to B - 1");
+}
+
+ReconstructJob job_of(const ReconstructArguments& arguments) {
+  ReconstructJob job = read_reconstruct_job(arguments.scan, arguments.rig);
+  apply_overrides(job.extraction, arguments.extraction);
+  parse_frames(arguments.frames, job);
+  if (!arguments.common.output.empty()) job.cloud = arguments.common.output;
+  job.profiles = arguments.profiles;
+  job.strict = arguments.strict;
+  job.resume = arguments.resume;
+  job.checkpoint_s = arguments.checkpoint_s;
+  job.threads = arguments.common.threads;
+  return job;
+}
+
+ScanProducts products_of(const ReconstructArguments& arguments, const ReconstructJob& job) {
+  ScanProducts products = arguments.products;
+  if (!arguments.filter.empty()) products.filter = parse_cloud_filter(arguments.filter);
+  check_scan_products(job, products);
+  return products;
+}
+
+/// Behind what the job does at its end already (a preview).
+void make_products_of(ReconstructJob& job, const ScanProducts& products, std::vector<std::string>& lines) {
+  if (!products.any()) return;
+  job.before_end = [&job, &lines, products, before = job.before_end] {
+    if (before) before();
+    lines = write_scan_products(job, products);
+  };
+}
+
+void add_product_options(CLI::App& command, ReconstructArguments& arguments) {
+  ScanProducts& products = arguments.products;
+  const auto positive = CLI::PositiveNumber;
+  command.add_option("--view", products.view, "page to look at the cloud in a browser (HTML)")
+      ->group("Also made");
+  command
+      .add_option("--height-map", products.height_map,
+                  "heights on a raster (.tif, and a 16-bit .png beside it)")
+      ->group("Also made");
+  command.add_option("--raster", products.map.raster_mm, "of the height map, mm [1]")
+      ->check(positive)
+      ->group("Also made");
+  command
+      .add_option("--bridge", products.map.bridge_mm,
+                  "height map: gaps within a stripe up to this are closed, mm [0]")
+      ->check(CLI::NonNegativeNumber)
+      ->group("Also made");
+  command.add_option("--mesh", products.mesh, "surface of triangles (.stl, .ply, .obj)")->group("Also made");
+  command
+      .add_option("--mesh-max-edge", products.mesh_options.max_edge_mm,
+                  "longer edges are gaps, mm [3 usual steps]")
+      ->check(positive)
+      ->group("Also made");
+  command
+      .add_option("--mesh-max-tilt", products.mesh_options.max_tilt_deg,
+                  "steeper against the line of sight is a jump, degrees [85]")
+      ->check(CLI::Range(1.0, 90.0))
+      ->group("Also made");
+  command
+      .add_option("--mesh-spacing", products.mesh_options.spacing_mm,
+                  "thins the stripes of the mesh, mm [all points]")
+      ->check(positive)
+      ->group("Also made");
+  command
+      .add_option("--filter", arguments.filter,
+                  "of the cloud, first of all: outliers, outliers=SIGMAS, voxel=MM, joined by commas")
+      ->group("Also made");
 }
 
 int run_reconstruct(const ReconstructArguments& arguments) {
+  ReconstructJob job = job_of(arguments);
   if (arguments.dry_run) {
-    const auto [first, end] = frames_to_reconstruct(arguments);
+    const auto [first, end] = frames_to_reconstruct(job);
     fmt::print("frames: {}:{}\n", first, end);
     return kExitDone;
   }
-  const std::string output = arguments.common.output.empty() ? "cloud.ply" : arguments.common.output;
-  const ReconstructOutcome outcome = reconstruct_scan(arguments);
-  const ScanSummary& summary = outcome.summary;
-  warn_of_skipped(outcome, output);
-  warn_of_gaps(summary);
-  if (summary.stopped)
-    return not_usable(
-        fmt::format("interrupted before frame {}; what is done is kept in {}; --resume goes on from there",
-                    outcome.end_frame, outcome.partial_cloud));
-  if (summary.points == 0) return not_usable(why_empty(outcome));
+  CloudPreview preview;
+  if (!arguments.preview.empty()) draw_preview_of(job, preview, arguments.preview);
+  std::vector<std::string> made;
+  make_products_of(job, products_of(arguments, job), made);
+  const InterruptWatch interrupt;
+  const ReconstructResult result = reconstruct(job, progress_line(arguments.common.quiet), interrupt.token());
+  warn_of_skipped(result, job.cloud.string());
+  warn_of_gaps(result.summary);
+  if (!result.usable()) return not_usable(result.not_usable);
   say(arguments.common,
-      fmt::format("{} frames, {} points in {:.2f} s ({:.1f} frames/s) -> {}", summary.frames, summary.points,
-                  outcome.seconds, static_cast<double>(outcome.frames_now) / outcome.seconds, output));
+      fmt::format("{} frames, {} points in {:.2f} s ({:.1f} frames/s) -> {}", result.summary.frames,
+                  result.summary.points, result.seconds,
+                  static_cast<double>(result.frames_now) / result.seconds, job.cloud.string()));
+  for (const std::string& line : made) say(arguments.common, line);
   return kExitDone;
 }
 
@@ -98,6 +186,7 @@ void add_reconstruct_command(CLI::App& app, Command& run) {
       ->add_option("--checkpoint", arguments->checkpoint_s,
                    "seconds between the places where a run can be resumed [1]")
       ->check(CLI::Range(0.0, 3600.0));
+  add_product_options(*command, *arguments);
   add_field_options<ExtractionOptions>(*command, "extraction.", arguments->extraction);
   command->callback([arguments, &run] { run = [arguments] { return run_reconstruct(*arguments); }; });
 }

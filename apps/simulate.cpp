@@ -8,16 +8,17 @@
 #include <optional>
 
 #include "apps/command.h"
+#include "apps/options.h"
 #include "apps/progress.h"
 #include "apps/simulate.h"
 
 namespace lightstripe {
 
 SimulationSummary simulate_with_progress(const Scene& scene, const CommonOptions& common) {
-  std::optional<Progress> progress;
-  return simulate_scene(scene, common.output, thread_count(common), [&](int, int total) {
-    if (!progress) progress.emplace("rendering", "images", total, common.quiet);
-    progress->step();
+  const JobThreads threads(common.threads);
+  const ProgressCallback draw = progress_line(common.quiet);
+  return simulate_scene(scene, common.output, common.threads, [&](int done, int total) {
+    if (draw) draw({"rendering", "images", done, total});
   });
 }
 
@@ -34,7 +35,6 @@ int run_simulate(const SimulateArguments& arguments) {
     fmt::print("{}", dump_yaml(arguments.scene.empty() ? Scene{} : read_scene(arguments.scene), true));
     return kExitDone;
   }
-  const ThreadLimit limit(arguments.common);
   const SimulationSummary summary = simulate_with_progress(read_scene(arguments.scene), arguments.common);
   say(arguments.common, fmt::format("{} images; session {}, scan {}, truth {}", summary.images,
                                     summary.session.string(), summary.scan.string(), summary.truth.string()));

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "apps/command.h"
+#include "apps/options.h"
 #include "io/atomic_file.h"
 #include "io/rig_file.h"
 #include "io/session_file.h"

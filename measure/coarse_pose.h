@@ -5,8 +5,8 @@
 
 #include <vector>
 
+#include "core/section_move.h"
 #include "measure/reference_shape.h"
-#include "simulate/section_alignment.h"
 
 namespace lightstripe {
 

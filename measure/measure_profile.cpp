@@ -14,10 +14,18 @@ namespace {
 /// knows no axis.
 bool optional_estimate(const std::string& name) { return name == "rim_width" || name == "diameter"; }
 
+bool is_required(const std::string& name, const MeasureOptions& options) {
+  if (options.required.empty()) return !optional_estimate(name);
+  return std::find(options.required.begin(), options.required.end(), name) != options.required.end();
+}
+
 std::string status_of(const MeasuredFrame& row, const MeasureOptions& options) {
   if (!row.registration.usable()) return row.registration.reason;
   for (const NamedEstimate& one : row.estimates)
-    if (!one.estimate.value && !optional_estimate(one.name)) return one.name + ": " + one.estimate.reason;
+    if (!one.estimate.value && is_required(one.name, options)) return one.name + ": " + one.estimate.reason;
+  for (const NamedEstimate& one : row.extras)
+    if (!options.required.empty() && !one.estimate.value && is_required(one.name, options))
+      return one.name + ": " + one.estimate.reason;
   for (const NamedEstimate& one : row.extras)
     if (one.name == "overlap_gap" && one.estimate.value &&
         std::abs(*one.estimate.value) > options.max_overlap_gap_mm)
@@ -59,6 +67,14 @@ MeasuredFrame measure_profile(const Profile& profile, const MeasuredObject& obje
   }
   row.status = status_of(row, options);
   return row;
+}
+
+bool any_known(const MeasuredFrame& row, const MeasureOptions& options) {
+  const auto known = [&](const NamedEstimate& one) {
+    return one.estimate.value && (options.required.empty() || is_required(one.name, options));
+  };
+  return std::any_of(row.estimates.begin(), row.estimates.end(), known) ||
+         (!options.required.empty() && std::any_of(row.extras.begin(), row.extras.end(), known));
 }
 
 std::vector<std::string> estimate_names(ObjectKind kind) {

@@ -19,6 +19,9 @@ struct MeasureOptions {
   RegistrationOptions registration;
   RailOptions rail;
   WheelOptions wheel;
+  /// Estimates that the user needs, by name: a row is "ok" where they are known. Empty: all that belong to a
+  /// complete measurement.
+  std::vector<std::string> required = {};
   double max_overlap_gap_mm = 0.1;  ///< between two sensors on the head: above, the calibration is in doubt
 };
 
@@ -48,6 +51,9 @@ struct MeasuredObject {
 /// A section with too few points, or one that does not fit, gives a row of unknowns with the reason.
 MeasuredFrame measure_profile(const Profile& profile, const MeasuredObject& object,
                               const MeasureOptions& options);
+
+/// Whether at least one of the estimates that the user needs is known.
+bool any_known(const MeasuredFrame& row, const MeasureOptions& options);
 
 /// Of the kind of the table, empty: for headers.
 std::vector<std::string> estimate_names(ObjectKind kind);

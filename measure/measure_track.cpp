@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "measure/measure_track.h"
 
+#include <algorithm>
+
 #include "measure/track_gauge.h"
 
 namespace lightstripe {
@@ -35,7 +37,8 @@ MeasuredFrame measure_track(const Profile& profile, const MeasuredTrack& track,
     row.status = "left rail: " + row.status;
   else if (right.status != "ok")
     row.status = "right rail: " + right.status;
-  else if (!gauge.value)
+  else if (!gauge.value && (options.required.empty() ||
+                            std::count(options.required.begin(), options.required.end(), "gauge") > 0))
     row.status = "gauge: " + gauge.reason;
   return row;
 }

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "measure/measure_wheel.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -16,7 +18,7 @@ using Eigen::Vector2d;
 
 constexpr double kMinScaleMm = 0.005;
 
-/// Of one of `placed.points`.
+/// Weight of `point`, which must be an element of placed.points.
 double weight_of(const PlacedSection& placed, const Vector2d& point) {
   return placed.section[static_cast<std::size_t>(&point - placed.points.data())].weight;
 }
@@ -203,6 +205,44 @@ Estimate diameter_of(const Place& tread, const Registration& registration, const
   return out;
 }
 
+/// Why the wheel is no worn one of the reference, laid with its flange's tip on the reference's; empty if
+/// nothing speaks against it. Tip and back of the flange do not wear, nor does the tread at the rim's edge.
+std::string why_another_wheel(const PlacedSection& placed, const Tip& tip, double wear) {
+  constexpr double kFitsMm = 0.3, kFar = 10, kBelowTipMm = 8, kEdgeFrom = 45, kEdgeTo = 58;
+  constexpr std::size_t kEnough = 10;
+  constexpr double kWornMm = 0.5, kShareOfWear = 0.85;
+  const Vector2d to_tip(0, placed.reference.top_v() - tip.height.value);
+  std::vector<double> flange, edge;
+  for (const Vector2d& p : placed.points) {
+    const Vector2d moved = p + to_tip;
+    const auto foot = placed.reference.nearest(moved);
+    const bool on_flange = moved.x() < tip.u && moved.y() > placed.reference.top_v() - kBelowTipMm;
+    if (on_flange) flange.push_back(foot ? std::abs(foot->signed_distance) : kFar);
+    const bool on_edge = p.x() > kEdgeFrom && p.x() < kEdgeTo && std::abs(p.y()) < 20;
+    const auto nominal = on_edge ? placed.reference.surface_along({p.x(), 0}, {0, 1}, 0) : std::nullopt;
+    if (nominal) edge.push_back(*nominal - moved.y());
+  }
+  const std::string& name = placed.reference.name();
+  if (flange.size() >= kEnough && median_of(flange) > kFitsMm)
+    return fmt::format("the flange's top does not fit {} ({:.2f} mm): name the wheel", name,
+                       median_of(flange));
+  if (wear > kWornMm && edge.size() >= kEnough && median_of(edge) > kShareOfWear * wear)
+    return fmt::format("the tread is {:.1f} mm lower than {}'s out to the rim: name the wheel", wear, name);
+  return "";
+}
+
+Estimate tread_wear_of(const PlacedSection& placed, const Tip& tip, const Estimate& flange_height,
+                       double datum_u) {
+  const auto nominal = placed.reference.surface_along({datum_u, 0}, {0, 1}, 0);
+  if (!flange_height.value || !nominal) return flange_height;
+  const double wear = *flange_height.value - (placed.reference.top_v() - *nominal);
+  const std::string other = why_another_wheel(placed, tip, wear);
+  if (!other.empty()) return Estimate::unknown(other);
+  Estimate out = flange_height;
+  out.value = wear;
+  return out;
+}
+
 /// Where the wheel stands about its axis, for its run-out.
 void add_places(const Place& tread, const Place& back, const Registration& registration,
                 const WheelSectionKind& kind, WheelMeasurement& out) {
@@ -236,9 +276,7 @@ WheelMeasurement measure_wheel(const Section& section, const ReferenceShape& ref
   out.rim_width = rim_width(placed, back);
   out.diameter = diameter_of(tread, registration, kind);
   add_places(tread, back, registration, kind, out);
-  const auto nominal = reference.surface_along({datum_u, 0}, {0, 1}, 0);
-  out.tread_wear = out.flange_height;
-  if (out.tread_wear.value && nominal) *out.tread_wear.value -= reference.top_v() - *nominal;
+  out.tread_wear = tread_wear_of(placed, tip, out.flange_height, datum_u);
   if (!tread.known() || !tip.height.known()) {
     out.flange_thickness = out.qr = Estimate::unknown(tread.known() ? tip.height.reason : tread.reason);
     return out;

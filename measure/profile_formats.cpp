@@ -34,26 +34,61 @@ std::optional<double> number_of(std::string_view text) {
   return value;
 }
 
+bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
+
+/// The next text between separators from `at` on, which goes behind it; empty at the line's end.
+template <class Separator>
+std::string_view next_text(std::string_view line, std::size_t& at, const Separator& is_separator) {
+  while (at < line.size() && is_separator(line[at])) ++at;
+  const std::size_t start = at;
+  while (at < line.size() && !is_separator(line[at])) ++at;
+  return line.substr(start, at - start);
+}
+
 /// Numbers at the line's beginning, separated by blanks or commas; none if it does not begin with two.
-std::vector<double> numbers_of(std::string_view line) {
+/// `remark`: text may stand behind them.
+std::vector<double> numbers_of(std::string_view line, bool remark = false) {
   std::vector<double> out;
-  std::size_t at = 0;
-  const auto separator = [](char c) { return c == ' ' || c == '\t' || c == ',' || c == '\r'; };
-  while (at < line.size()) {
-    while (at < line.size() && separator(line[at])) ++at;
-    std::size_t end = at;
-    while (end < line.size() && !separator(line[end])) ++end;
-    if (end == at) break;
-    const auto value = number_of(line.substr(at, end - at));
-    if (!value) return {};
+  const auto separator = [](char c) { return is_blank(c) || c == ','; };
+  for (std::size_t at = 0;;) {
+    const std::string_view text = next_text(line, at, separator);
+    if (text.empty()) break;
+    const auto value = number_of(text);
+    if (!value && !remark) return {};
+    if (!value) break;
     out.push_back(*value);
-    at = end;
   }
   return out.size() >= 2 ? out : std::vector<double>{};
 }
 
+/// "12,5  -3,75", also with a semicolon between: two numbers with decimal commas and no decimal point.
+bool has_decimal_commas(std::string_view line) {
+  const auto separator = [](char c) { return is_blank(c) || c == ';'; };
+  int count = 0;
+  for (std::size_t at = 0; count < 2; ++count) {
+    std::string text(next_text(line, at, separator));
+    if (std::count(text.begin(), text.end(), ',') != 1 || text.find('.') != std::string::npos) return false;
+    if (text.front() == ',' || text.back() == ',') return false;
+    std::replace(text.begin(), text.end(), ',', '.');
+    if (!number_of(text)) return false;
+  }
+  return true;
+}
+
+void refuse_decimal_commas(std::string_view line, const std::string& name) {
+  if (has_decimal_commas(line))
+    throw Error(name, "has decimal commas: '" + std::string(line.substr(0, 40)) + "'",
+                "write its numbers with decimal points");
+}
+
+/// The next line; a Ctrl-Z ends the text, as DOS wrote it.
 bool next_line(std::istream& in, std::string& line, const std::string& name) {
   if (!std::getline(in, line)) return false;
+  if (const auto end = line.find('\x1a'); end != std::string::npos) {
+    line.erase(end);
+    in.setstate(std::ios::eofbit);
+    if (line.empty()) return false;
+  }
   if (line.size() > kLongestLine || line.find('\0') != std::string::npos)
     throw Error(name, "is no text file", "give a profile as MiniProf or Simpack write it");
   return true;
@@ -123,21 +158,25 @@ RecordedProfile read_miniprof(std::istream& in, const std::string& name, ObjectK
   RecordedProfile profile;
   profile.kind = kind;
   bool in_points = true;  // an .mpt has sections, only those of points count
+  bool over = false;      // what follows the first profile is not read
   for (std::string line; next_line(in, line, name);) {
     const std::string text = trimmed(line);
     if (text.empty()) continue;
     if (text.front() == '[') {
       in_points = text.find("Points]") != std::string::npos;
-      if (in_points && !profile.points.empty()) break;  // the first profile of several
-      continue;
+      over = !profile.points.empty();
+      if (over && in_points) ++profile.further_profiles;
     }
+    if (over || text.front() == '[') continue;
     if (read_old_wheel_figures(text, profile)) continue;
-    const std::vector<double> row = numbers_of(without_comment(text, "\"!%"));
+    const std::string row_text = without_comment(text, "\"!%");
+    const std::vector<double> row = numbers_of(row_text, !profile.points.empty());
+    if (in_points) refuse_decimal_commas(row_text, name);
     if (!row.empty() && in_points) {
       add_point(profile, row[0], row[1], name);
     } else if (profile.points.empty()) {
       read_header_line(text, profile);
-    } else if (row.empty()) {
+    } else if (row.empty() && !row_text.empty() && text.front() != '#') {
       throw Error(name, "has a line among its points that is no point: '" + text.substr(0, 40) + "'",
                   "correct it, or take it out");
     }
@@ -151,11 +190,12 @@ RecordedProfile read_simpack(std::istream& in, const std::string& name) {
   RecordedProfile profile;
   bool in_points = false;
   for (std::string line; next_line(in, line, name);) {
-    const std::string text = without_comment(line, "!");
+    const std::string text = without_comment(line, "!%#");
     if (text == "point.begin" || text == "point.end") {
       in_points = text == "point.begin";
     } else if (in_points && !text.empty()) {
-      const std::vector<double> row = numbers_of(text);
+      refuse_decimal_commas(text, name);
+      const std::vector<double> row = numbers_of(text, true);
       if (row.empty())
         throw Error(name, "has no point in '" + text.substr(0, 40) + "'", "give rows of y and z");
       add_point(profile, row[0], row[1], name);

@@ -21,6 +21,7 @@ struct RecordedProfile {
   ObjectKind kind = ObjectKind::kRail;
   std::vector<Eigen::Vector2d> points;
   std::map<std::string, std::string> header;  ///< keys and values as they stand
+  int further_profiles = 0;                   ///< of an .mpt: profiles behind the first, which are not read
 
   /// A header value that is a number.
   std::optional<double> number(const std::string& key) const;
@@ -32,8 +33,11 @@ enum class ProfileFormat { kMiniProf, kSimpack };
 std::optional<ProfileFormat> profile_format(std::string_view file_name);
 
 /// MiniProf: "key=value" lines, an empty line, rows "x y ..."; the older style that begins with "MINIPROF"
-/// and "key...: value" lines; parts "[...Points]" of an .mpt. Up or down and left or right are found from the
-/// shape. An Error with `name` for what is no profile: fewer than ten points, more than a million, no number.
+/// and "key...: value" lines; the first part "[...Points]" of an .mpt. What stands behind " ! or % is a
+/// remark, also a whole row, and so is text behind a row's numbers; a Ctrl-Z ends the file. Up or down and
+/// left or right are found from the shape, and of a wheel whether x counts from the flange's back or the
+/// tread datum. An Error with `name` for what is no profile: fewer than ten points, more than a million, no
+/// number, decimal commas.
 RecordedProfile read_miniprof(std::istream& in, const std::string& name, ObjectKind kind);
 /// Simpack: type 0 rail, 1 wheel; units from units.len.f. An Error also where the file asks for a shift, a
 /// rotation or a mirror, which are not applied.

@@ -33,11 +33,33 @@ void turn_rail(std::vector<Vector2d>& points) {
     for (Vector2d& p : points) p.y() = -p.y();
 }
 
-void turn_wheel(std::vector<Vector2d>& points) {
+/// Whether x counts from the tread datum: then it lies within the points, and the flange's back at its end.
+bool counts_from_datum(const std::vector<Vector2d>& points) {
+  constexpr double kWithinMm = 30;
+  const auto [low, high] = std::minmax_element(
+      points.begin(), points.end(), [](const Vector2d& a, const Vector2d& b) { return a.x() < b.x(); });
+  return low->x() < -kWithinMm && high->x() > kWithinMm;
+}
+
+/// Makes x count from the flange's back, positive. Of a file that counts from the datum the flange is the end
+/// that differs more from the tread: its tip is over 20 mm away, the rim's edge a few.
+void count_from_back(std::vector<Vector2d>& points) {
+  constexpr double kTipFrom = kDatumMm - 22, kTipTo = kDatumMm - 10;  // distances from the datum
+  if (counts_from_datum(points)) {
+    const double tread = height_between(points, -3, 3);
+    const double left = std::abs(height_between(points, -kTipTo, -kTipFrom) - tread),
+                 right = std::abs(height_between(points, kTipFrom, kTipTo) - tread);
+    for (Vector2d& p : points) p.x() = kDatumMm + (left >= right ? p.x() : -p.x());
+    return;
+  }
   double sum = 0;
   for (const Vector2d& p : points) sum += p.x();
   if (sum < 0)
     for (Vector2d& p : points) p.x() = -p.x();
+}
+
+void turn_wheel(std::vector<Vector2d>& points) {
+  count_from_back(points);
   const double flange = height_between(points, 8, 24),
                tread = height_between(points, kDatumMm - 3, kDatumMm + 3);
   if (flange < tread)

@@ -8,7 +8,8 @@
 namespace lightstripe {
 
 /// Makes v point up and, of a wheel, u run from the flange's back (at -70) to the field side; found from the
-/// shape: a rail's top is above its sides, a wheel's flange above its tread and near the file's x = 0.
+/// shape: a rail's top is above its sides, a wheel's flange above its tread and at the file's x = 0 or,
+/// where x counts from the tread datum, at its end.
 void turn_upright(RecordedProfile& profile);
 
 }  // namespace lightstripe

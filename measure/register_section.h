@@ -61,7 +61,7 @@ struct Registration {
   double rms_mm = 0;            ///< distances of the points that count
   int num_points = 0;           ///< that count
   double correlated_points =
-      1;  ///< how many neighbours share one error: sigma of a mean of n is rms sqrt(this / n)
+      1;  ///< neighbouring points that share one error; the mean of n points has sigma = rms * sqrt(this / n)
   double stretch_error_mm = 0;  ///< what the place of a short stretch of surface errs by, beyond scatter
   RegistrationView view = RegistrationView::kNone;
   std::string reason = "not registered";  ///< empty: usable

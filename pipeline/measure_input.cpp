@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 
 #include "core/error.h"
@@ -26,8 +27,26 @@ RecordedProfile read_recorded(const std::string& path, ProfileFormat format, Obj
   return profile;
 }
 
-MeasureInput input_of(const RecordedProfile& recorded) {
+/// The radius where the file's v is 0: its figure is that of the tread at WheelDiameterTaperline, which need
+/// not lie at v = 0.
+std::optional<double> radius_where_v_is_0(const RecordedProfile& recorded) {
+  constexpr double kDatumMm = 70, kHalfWidthMm = 4, kDeepMm = 20, kMinScaleMm = 0.005;
+  const auto diameter = recorded.number("DiameterTaperline");
+  if (!diameter || !(*diameter > 0)) return std::nullopt;
+  const double u = recorded.number("WheelDiameterTaperline").value_or(kDatumMm) - kDatumMm;
+  std::vector<Sample1> tread;
+  for (const Eigen::Vector2d& p : recorded.points)
+    if (std::abs(p.x() - u) < kHalfWidthMm && std::abs(p.y()) < kDeepMm)
+      tread.push_back({p.x() - u, p.y(), 1});
+  const auto fit = fit_polynomial(tread, 2, kMinScaleMm);
+  if (!fit) return std::nullopt;
+  return *diameter / 2 - fit->value;
+}
+
+MeasureInput input_of(const RecordedProfile& recorded, const std::string& path) {
   MeasureInput input;
+  input.file = path;
+  input.kind = recorded.kind;
   Profile profile;
   for (const Eigen::Vector2d& p : recorded.points) {
     ProfilePoint point;
@@ -39,9 +58,21 @@ MeasureInput input_of(const RecordedProfile& recorded) {
   if (recorded.kind == ObjectKind::kRail) return input;
   input.prior.pose = SectionPose{};
   input.wheel.back_is_given = true;
-  if (const auto diameter = recorded.number("DiameterTaperline"))
-    input.wheel.radius_offset_mm = *diameter / 2;
+  input.wheel.radius_offset_mm = radius_where_v_is_0(recorded);
   return input;
+}
+
+/// Whether most of some sections show a rail's head without web and foot.
+bool shows_head_alone(const std::vector<Profile>& profiles, const RegistrationOptions& options) {
+  constexpr std::size_t kSections = 7;
+  const ReferenceShape reference = read_reference("", ObjectKind::kRail);
+  const std::size_t count = std::min(kSections, profiles.size());
+  std::size_t alone = 0;
+  for (std::size_t i = 0; i < count; ++i)
+    if (register_section(section_of(profiles[i * profiles.size() / count]), reference, {}, options).view ==
+        RegistrationView::kHeadOnly)
+      ++alone;
+  return 2 * alone > count;
 }
 
 /// Median rms of some sections that can be registered to this rail; nothing if fewer than half can.
@@ -65,8 +96,10 @@ std::optional<double> median_rms(const std::vector<Profile>& profiles, const std
 std::string kind_name(ObjectKind kind) { return kind == ObjectKind::kRail ? "rail" : "wheel"; }
 
 MeasureInput read_measure_input(const std::string& path, ObjectKind kind) {
-  if (const auto format = profile_format(path)) return input_of(read_recorded(path, *format, kind));
+  if (const auto format = profile_format(path)) return input_of(read_recorded(path, *format, kind), path);
   MeasureInput input;
+  input.file = path;
+  input.kind = kind;
   input.profiles = read_profiles(path);
   if (input.profiles.empty()) throw Error(path, "has no rows", "give the sections of a scan");
   if (kind == ObjectKind::kRail) return input;
@@ -101,6 +134,9 @@ IdentifiedRail identify_rail(const std::vector<Profile>& profiles, const Registr
     if (read_nominal_profile(name).kind != "rail") continue;
     if (const auto rms = median_rms(profiles, name, options)) fits.emplace_back(*rms, name);
   }
+  if (fits.empty() && shows_head_alone(profiles, options))
+    throw Error("--nominal auto", "the sections show a head alone, and rails are told apart by web and foot",
+                "name the rail or give its outline");
   if (fits.empty())
     throw Error("--nominal auto", "none of the built-in rails fits the sections",
                 "name the rail or give its outline");

@@ -13,6 +13,8 @@
 namespace lightstripe {
 
 struct MeasureInput {
+  std::string file;  ///< where it was read
+  ObjectKind kind = ObjectKind::kRail;
   std::vector<Profile> profiles;
   SectionPrior prior;
   WheelSectionKind wheel;

@@ -11,34 +11,26 @@
 namespace lightstripe {
 namespace {
 
-ReferenceShape nominal_of(const MeasureArguments& arguments, const MeasureInput& input,
-                          const MeasureOptions& options) {
-  if (arguments.nominal != "auto") return read_reference(arguments.nominal, arguments.kind);
-  if (arguments.kind == ObjectKind::kWheel)
+std::optional<IdentifiedRail> identify(const ReferenceChoice& choice, const MeasureInput& input,
+                                       const MeasureOptions& options) {
+  if (choice.nominal != "auto") return std::nullopt;
+  if (input.kind == ObjectKind::kWheel)
     throw Error("--nominal auto", "tells rails apart, not wheels", "name the wheel's outline");
-  const IdentifiedRail found = identify_rail(input.profiles, options.registration);
-  say(arguments.common, "rail: " + found.name);
-  if (!found.also.empty())
-    warn(
-        fmt::format("{} cannot be told from {}: they differ in the head only, which wears; name the right "
-                    "one with --nominal",
-                    found.name, fmt::join(found.also, ", ")));
-  return read_reference(found.name, arguments.kind);
+  return identify_rail(input.profiles, options.registration);
 }
 
-Baseline read_baseline(const MeasureArguments& arguments, const ReferenceShape& nominal,
+Baseline read_baseline(const std::string& file, const ReferenceShape& nominal,
                        const MeasureOptions& options) {
-  const MeasureInput earlier = read_measure_input(arguments.baseline, arguments.kind);
-  return Baseline(earlier.profiles, nominal, earlier.prior, options.registration, arguments.baseline);
+  const MeasureInput earlier = read_measure_input(file, nominal.kind());
+  return Baseline(earlier.profiles, nominal, earlier.prior, options.registration, file);
 }
 
-double place_between(const MeasureArguments& arguments, const MeasureInput& input) {
-  if (arguments.kind != ObjectKind::kRail || !arguments.baseline.empty() || arguments.nominal == "auto")
+double place_between(const ReferenceChoice& choice, const MeasureInput& input) {
+  if (input.kind != ObjectKind::kRail || !choice.baseline.empty() || choice.nominal == "auto")
     throw Error("--rails two", "is for rails against named outlines", "leave --baseline and auto out");
   const auto between = place_between_rails(input.profiles);
   if (!between)
-    throw Error(arguments.profiles,
-                "shows one rail only: its points leave no hole of 300 mm across the track",
+    throw Error(input.file, "shows one rail only: its points leave no hole of 300 mm across the track",
                 "leave --rails two out");
   return *between;
 }
@@ -57,20 +49,21 @@ MeasuredFrame without_reference(const Profile& profile, const MeasuredObject& ob
 
 }  // namespace
 
-MeasureReferences::MeasureReferences(const MeasureArguments& arguments, const MeasureInput& input,
-                                     const MeasureOptions& options)
-    : nominal_(nominal_of(arguments, input, options)) {
-  if (!arguments.two_rails && !arguments.nominal_right.empty())
+MeasureReferences::MeasureReferences(const ReferenceChoice& choice, const MeasureInput& input,
+                                     const MeasureOptions& options, const std::filesystem::path& rig_file)
+    : identified_(identify(choice, input, options)),
+      nominal_(read_reference(identified_ ? identified_->name : choice.nominal, input.kind)) {
+  if (!choice.two_rails && !choice.nominal_right.empty())
     throw Error("--nominal-right", "is the second of two rails", "add --rails two");
-  if (arguments.two_rails) {
-    between_u_ = place_between(arguments, input);
-    if (!arguments.nominal_right.empty()) right_ = read_reference(arguments.nominal_right, arguments.kind);
-    if (!arguments.rig.empty()) {
-      const double sigma = read_rig(arguments.rig).quality.section_absolute_sigma_mm;
+  if (choice.two_rails) {
+    between_u_ = place_between(choice, input);
+    if (!choice.nominal_right.empty()) right_ = read_reference(choice.nominal_right, input.kind);
+    if (!rig_file.empty()) {
+      const double sigma = read_rig(rig_file).quality.section_absolute_sigma_mm;
       if (sigma > 0) rig_sigma_mm_ = sigma;
     }
   }
-  if (!arguments.baseline.empty()) baseline_ = read_baseline(arguments, nominal_, options);
+  if (!choice.baseline.empty()) baseline_ = read_baseline(choice.baseline, nominal_, options);
 }
 
 const ReferenceShape& MeasureReferences::at(double travel) const {

@@ -4,25 +4,38 @@
 // of an earlier scan.
 #pragma once
 
+#include <filesystem>
 #include <optional>
+#include <string>
+#include <vector>
 
-#include "apps/measure.h"
 #include "measure/baseline.h"
 #include "measure/measure_track.h"
 #include "pipeline/measure_input.h"
 
 namespace lightstripe {
 
+struct ReferenceChoice {
+  std::string
+      nominal;  ///< name or file of the new rail or wheel; empty: 60E1 or S1002; auto: the rail that fits
+  std::string baseline;    ///< file of an earlier measurement as reference; empty: the nominal outline itself
+  bool two_rails = false;  ///< each section shows both rails of a track
+  std::string nominal_right;  ///< two rails: name or file of the rail at -y; empty: as the other
+};
+
 class MeasureReferences {
  public:
-  /// An Error where the arguments ask for what the sections do not show (a track), or a file is not usable.
-  MeasureReferences(const MeasureArguments& arguments, const MeasureInput& input,
-                    const MeasureOptions& options);
+  /// `rig_file` (may be empty) tells how well the place of two rails is known. An Error where the choice asks
+  /// for what the sections do not show (a track), or a file is not usable.
+  MeasureReferences(const ReferenceChoice& choice, const MeasureInput& input, const MeasureOptions& options,
+                    const std::filesystem::path& rig_file);
 
   /// What a section is drawn with, too.
   const ReferenceShape& at(double travel) const;
   /// Of the other rail, if there are two.
   const ReferenceShape& right() const { return right_ ? *right_ : nominal_; }
+  /// What `auto` has found.
+  const std::optional<IdentifiedRail>& identified() const { return identified_; }
 
   MeasuredFrame measure(const Profile& profile, const MeasureInput& input,
                         const MeasureOptions& options) const;
@@ -30,6 +43,7 @@ class MeasureReferences {
   std::vector<std::string> extra_columns() const;
 
  private:
+  std::optional<IdentifiedRail> identified_;
   ReferenceShape nominal_;
   std::optional<ReferenceShape> right_;
   std::optional<Baseline> baseline_;

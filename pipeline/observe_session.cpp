@@ -1,15 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The lightstripe authors
 // SPDX-License-Identifier: Apache-2.0
+#include "pipeline/observe_session.h"
+
 #include <fmt/format.h>
-#include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
 #include <map>
 
-#include "apps/calibrate.h"
-#include "apps/progress.h"
 #include "core/error.h"
-#include "core/task_order.h"
 #include "io/camera_file.h"
 #include "io/images.h"
 #include "io/tables.h"
@@ -190,7 +188,7 @@ void check_size(SensorObservations& sensor, const ViewTask& task, const ViewResu
 }  // namespace
 
 SessionObservations observe_session(const Session& session, const ExtractionOptions& extraction,
-                                    const CommonOptions& common) {
+                                    const ProgressCallback& progress, const std::stop_token& stop) {
   SessionObservations seen;
   std::vector<ViewTask> tasks;
   for (std::size_t i = 0; i < session.sensors.size(); ++i)
@@ -199,14 +197,15 @@ SessionObservations observe_session(const Session& session, const ExtractionOpti
   for (auto& task : motion_tasks(session)) tasks.push_back(std::move(task));
 
   std::vector<ViewResult> results(tasks.size());
-  Progress progress("looking for boards", "images", static_cast<std::int64_t>(tasks.size()), common.quiet);
-  const auto observe = [&](std::size_t i) {
+  StepCounter steps("looking for boards", "images", static_cast<std::int64_t>(tasks.size()), progress);
+  parallel_for(tasks.size(), [&](std::size_t i) {
+    if (stop.stop_requested()) return;
     results[i] = observe_view(tasks[i], session, extraction);
-    progress.step();
-  };
-  before_tasks();
-  oneapi::tbb::parallel_for(std::size_t{0}, tasks.size(), Task(observe));
-  after_tasks();
+    steps.step();
+  });
+  if (stop.stop_requested())
+    throw Error((session.folder).string(), "the run was stopped before all pictures were looked at",
+                "run it again");
 
   seen.observations = empty_observations(session);
   for (std::size_t i = 0; i < tasks.size(); ++i) {

@@ -47,13 +47,13 @@ bool take_entry(std::string_view text, const std::vector<NamedSkip>& skips, Jour
   if (!n) return false;
   state.has_entry = true;
   state.tally.next_frame = (*n)[0];
-  ScanSummary& summary = state.tally.summary;
-  summary.frames = (*n)[1];
-  summary.frames_without_points = (*n)[2];
-  summary.points = (*n)[3];
-  summary.rays_missed = (*n)[4];
-  summary.pictures = (*n)[5];
-  summary.pictures_skipped = (*n)[6];
+  ScanCounts& counts = state.tally.counts;
+  counts.frames = (*n)[1];
+  counts.frames_without_points = (*n)[2];
+  counts.points = (*n)[3];
+  counts.rays_missed = (*n)[4];
+  counts.pictures = (*n)[5];
+  counts.pictures_skipped = (*n)[6];
   state.cloud = {(*n)[7], static_cast<std::uint32_t>((*n)[8])};
   state.profiles = {(*n)[9], static_cast<std::uint32_t>((*n)[10])};
   state.tally.skipped = skips;
@@ -72,7 +72,7 @@ std::string journal_skip(const NamedSkip& skip) {
 
 std::string journal_entry(const ScanTally& tally, const ResumableFile::Mark& cloud,
                           const ResumableFile::Mark& profiles) {
-  const ScanSummary& s = tally.summary;
+  const ScanCounts& s = tally.counts;
   return fmt::format("done {} {} {} {} {} {} {} {} {} {} {}\n", tally.next_frame, s.frames,
                      s.frames_without_points, s.points, s.rays_missed, s.pictures, s.pictures_skipped,
                      cloud.bytes, cloud.crc, profiles.bytes, profiles.crc);

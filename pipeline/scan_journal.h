@@ -22,8 +22,8 @@ struct NamedSkip {
 
 /// What is in the files.
 struct ScanTally {
-  std::int64_t next_frame = 0;     ///< all before it are done
-  ScanSummary summary;             ///< without its ranges: they follow from the travel table
+  std::int64_t next_frame = 0;  ///< all before it are done
+  ScanCounts counts;
   std::vector<NamedSkip> skipped;  ///< the first kMaxNamed
   static constexpr std::size_t kMaxNamed = 1000;
 };

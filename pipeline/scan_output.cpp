@@ -104,9 +104,7 @@ void ScanOutput::encode(ScannedFrame& frame) const {
 }
 
 void ScanOutput::append(const ScannedFrame& frame) {
-  ScanSummary& s = tally_.summary;
-  const auto points = static_cast<std::int64_t>(frame.profile.points.size());
-  if (s.points + points > kMaxCloudPoints)
+  if (frame.counts.points > kMaxCloudPoints)
     throw Error(options_.cloud.string(), "the cloud exceeds " + std::to_string(kMaxCloudPoints) + " points",
                 "reconstruct parts of the scan with --frames");
   cloud_->append(frame.encoded[0]);
@@ -117,12 +115,7 @@ void ScanOutput::append(const ScannedFrame& frame) {
     put(journal_, journal_path(), journal_skip(tally_.skipped.back()));
   }
   tally_.next_frame = frame.profile.frame + 1;
-  ++s.frames;
-  if (points == 0) ++s.frames_without_points;
-  s.points += points;
-  s.rays_missed += frame.profile.num_missed;
-  s.pictures += frame.pictures;
-  s.pictures_skipped += static_cast<std::int64_t>(frame.skipped.size());
+  tally_.counts = frame.counts;
   if (steady_clock::now() - last_entry_ >= options_.checkpoint) write_entry();
 }
 
@@ -134,7 +127,7 @@ void ScanOutput::write_entry() {
 }
 
 void ScanOutput::keep() {
-  cloud_->replace_head(cloud_header(format_, tally_.summary.points));
+  cloud_->replace_head(cloud_header(format_, tally_.counts.points));
   write_entry();
   over_ = true;
 }
@@ -142,7 +135,7 @@ void ScanOutput::keep() {
 void ScanOutput::commit() {
   over_ = true;
   if (was_complete_) return;
-  cloud_->replace_head(cloud_header(format_, tally_.summary.points));
+  cloud_->replace_head(cloud_header(format_, tally_.counts.points));
   write_entry();
   put(journal_, journal_path(), kJournalComplete);
   cloud_->commit();

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The lightstripe authors
 // SPDX-License-Identifier: Apache-2.0
-// profiles -> point cloud on disk: .ply, .pcd (binary) or .xyz (text), with the contract's fields, and back.
-// PCL stays in the .cpp files.
+// profiles -> point cloud on disk: .ply, .pcd (binary) or .xyz (text), with the fields of docs/interface.md,
+// and back. PCL stays in the .cpp files.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@
 
 namespace lightstripe {
 
-/// One point of a cloud file, in the order of the contract's properties.
+/// One point of a cloud file, in the order of the file's properties.
 struct CloudPoint {
   float x = 0, y = 0, z = 0;  ///< mm
   float intensity = 0;        ///< grey levels

@@ -21,7 +21,7 @@ std::string slack(std::int64_t num_points, std::size_t occurrences) {
 }
 
 /// By hand: PCL's own header appends a camera or a range grid with some twenty properties and an empty face
-/// element, which the contract does not have.
+/// element, which docs/interface.md does not have.
 std::string ply_header(std::int64_t num_points) {
   return fmt::format(
       "ply\nformat binary_little_endian 1.0\ncomment lightstripe, mm{}\nelement vertex {}\n"

@@ -3,16 +3,13 @@
 #include "reconstruct/scanner.h"
 
 #include <fmt/format.h>
-#include <oneapi/tbb/enumerable_thread_specific.h>
-#include <oneapi/tbb/parallel_pipeline.h>
-#include <oneapi/tbb/task_arena.h>
 
 #include <atomic>
 #include <exception>
 
 #include "core/error.h"
-#include "core/task_order.h"
 #include "extraction/workspace.h"
+#include "parallel/parallel.h"
 
 namespace lightstripe {
 namespace {
@@ -30,9 +27,7 @@ struct FrameOutcome {
   std::exception_ptr error;
 };
 
-/// Where a frame lies from its issue until it has been handed on; there is one for each frame in flight, used
-/// in turn. The pipeline passes its address only: the copies that oneTBB would make of the frame itself lie
-/// outside our tasks, where TSan cannot see their order.
+/// A slot of the pipeline: where a frame lies from its issue until it has been handed on.
 struct FrameInFlight {
   PlacedFrame placed;
   FrameOutcome outcome;
@@ -109,21 +104,26 @@ FrameOutcome outcome_of_frame(const PlacedFrame& placed, const ScanInput& input,
   }
 }
 
-/// Hands a frame on and counts it; returns what went wrong with it, if anything.
-std::exception_ptr hand_on(const FrameOutcome& outcome, const FrameSink& sink, ScanSummary& summary) {
+void count(const ScannedFrame& frame, ScanCounts& counts) {
+  ++counts.frames;
+  if (frame.profile.points.empty()) ++counts.frames_without_points;
+  counts.points += static_cast<std::int64_t>(frame.profile.points.size());
+  counts.rays_missed += frame.profile.num_missed;
+  counts.pictures += frame.pictures;
+  counts.pictures_skipped += static_cast<std::int64_t>(frame.skipped.size());
+}
+
+/// Counts a frame and hands it on; returns what went wrong with it, if anything.
+std::exception_ptr hand_on(FrameOutcome& outcome, const FrameSink& sink, ScanCounts& counts) {
   if (outcome.error) return outcome.error;
-  const ScannedFrame& scanned = outcome.scanned;
+  ScannedFrame& scanned = outcome.scanned;
+  count(scanned, counts);
+  scanned.counts = counts;
   try {
     sink(scanned);
   } catch (...) {
     return std::current_exception();
   }
-  ++summary.frames;
-  if (scanned.profile.points.empty()) ++summary.frames_without_points;
-  summary.points += static_cast<std::int64_t>(scanned.profile.points.size());
-  summary.rays_missed += scanned.profile.num_missed;
-  summary.pictures += scanned.pictures;
-  summary.pictures_skipped += static_cast<std::int64_t>(scanned.skipped.size());
   return nullptr;
 }
 
@@ -131,42 +131,28 @@ std::exception_ptr hand_on(const FrameOutcome& outcome, const FrameSink& sink, S
 
 ScanSummary scan_profiles(const ScanInput& input, const Rig& rig, const StripeExtractor& extract, int threads,
                           const FrameSink& sink) {
-  LIGHTSTRIPE_CHECK(threads >= 0, "the number of threads must not be negative");
-  ScanSummary summary;
+  ScanSummary summary = input.before;
   std::int64_t next = input.first_frame;
   std::atomic<bool> failed = false;
   std::exception_ptr error;
-  tbb::task_arena arena(threads == 0 ? tbb::task_arena::automatic : threads);
-  std::vector<FrameInFlight> in_flight(2 * static_cast<std::size_t>(arena.max_concurrency()));
-  std::size_t issued = 0;
-  const auto issue = [&](tbb::flow_control& flow) -> FrameInFlight* {
+  std::vector<FrameInFlight> in_flight;
+  PipelineSteps steps;
+  steps.issue = [&](std::size_t slot) {
     const auto placed = failed ? std::nullopt : next_placed_frame(input, next, summary);
-    if (!placed) {
-      flow.stop();
-      return nullptr;
-    }
-    FrameInFlight& frame = in_flight[issued++ % in_flight.size()];  // handed on: frames end in order
-    frame = {*placed, {}};
-    return &frame;
+    if (placed) in_flight[slot] = {*placed, {}};
+    return placed.has_value();
   };
-  const auto process = [&](FrameInFlight* frame) {
-    if (!failed) frame->outcome = outcome_of_frame(frame->placed, input, rig, extract);
-    return frame;
+  steps.process = [&](std::size_t slot) {
+    FrameInFlight& frame = in_flight[slot];
+    if (!failed) frame.outcome = outcome_of_frame(frame.placed, input, rig, extract);
   };
-  const auto collect = [&](FrameInFlight* frame) {
+  steps.collect = [&](std::size_t slot) {
     if (failed) return;
-    error = hand_on(frame->outcome, sink, summary);
+    error = hand_on(in_flight[slot].outcome, sink, summary);
     failed = error != nullptr;
   };
-  arena.execute([&] {
-    before_tasks();
-    tbb::parallel_pipeline(
-        in_flight.size(),
-        tbb::make_filter<void, FrameInFlight*>(tbb::filter_mode::serial_in_order, Task(issue)) &
-            tbb::make_filter<FrameInFlight*, FrameInFlight*>(tbb::filter_mode::parallel, Task(process)) &
-            tbb::make_filter<FrameInFlight*, void>(tbb::filter_mode::serial_in_order, Task(collect)));
-    after_tasks();
-  });
+  parallel_pipeline(
+      threads, [&](std::size_t slots) { in_flight.resize(slots); }, steps);
   if (error) std::rethrow_exception(error);
   return summary;
 }
@@ -177,15 +163,16 @@ ScanSummary scan_profiles(const ScanInput& input, const Rig& rig, const Extracti
     ExtractionWorkspace workspace;
     ExtractionResult result;
   };
-  tbb::enumerable_thread_specific<Memory> memories;
+  WorkspacePool<Memory> memories;
   const auto extract = [&](const GreyImage& image) {
-    Memory& memory = memories.local();
-    std::visit(
-        [&](const auto& pixels) {
-          extract_stripes(pixels.view(), extraction, memory.workspace, memory.result);
-        },
-        image);
-    return memory.result.stripes;
+    return memories.with([&](Memory& memory) {
+      std::visit(
+          [&](const auto& pixels) {
+            extract_stripes(pixels.view(), extraction, memory.workspace, memory.result);
+          },
+          image);
+      return memory.result.stripes;
+    });
   };
   return scan_profiles(input, rig, StripeExtractor(extract), threads, sink);
 }

@@ -26,6 +26,16 @@ struct SkippedPicture {
   std::string reason;
 };
 
+/// How much of a scan is done.
+struct ScanCounts {
+  std::int64_t frames = 0;  ///< handed on
+  std::int64_t frames_without_points = 0;
+  std::int64_t points = 0;
+  std::int64_t rays_missed = 0;
+  std::int64_t pictures = 0;  ///< that were read and looked at
+  std::int64_t pictures_skipped = 0;
+};
+
 /// One frame on its way to the sink.
 struct ScannedFrame {
   Profile profile;
@@ -33,6 +43,13 @@ struct ScannedFrame {
   int pictures = 0;  ///< that were read and looked at
   std::vector<SkippedPicture> skipped;
   std::vector<std::string> encoded;  ///< what ScanInput::encode made of the profile
+  ScanCounts counts;                 ///< of the scan up to and with this frame; not yet known to `encode`
+};
+
+struct ScanSummary : ScanCounts {
+  FrameRanges without_position;
+  FrameRanges interpolated;  ///< their travel lies between two readings
+  bool stopped = false;      ///< ended by ScanInput::stop
 };
 
 struct ScanInput {
@@ -51,20 +68,10 @@ struct ScanInput {
   std::function<void(ScannedFrame& frame)> encode{};
   /// A picture that cannot be read, or has not the size of the rig's camera, ends the run.
   bool strict = false;
+  /// What an earlier run has done of this scan: counts and ranges go on from here.
+  ScanSummary before{};
   /// A stop that is asked for ends the run after the frames that are under way.
   std::stop_token stop{};
-};
-
-struct ScanSummary {
-  std::int64_t frames = 0;  ///< handed on
-  std::int64_t frames_without_points = 0;
-  std::int64_t points = 0;
-  std::int64_t rays_missed = 0;
-  std::int64_t pictures = 0;
-  std::int64_t pictures_skipped = 0;
-  FrameRanges without_position;
-  FrameRanges interpolated;  ///< their travel lies between two readings
-  bool stopped = false;      ///< ended by ScanInput::stop
 };
 
 /// image of one sensor -> its stripes; called from several threads.

@@ -40,6 +40,7 @@ SurfaceMesh mesh_cloud(const std::filesystem::path& cloud, const Rig& rig, const
 
 /// .stl (binary), .ply (binary, with normals) or .obj. `path` may be a temporary one; `name` is what messages
 /// call it and what tells the format.
+void check_mesh_name(const std::filesystem::path& name);  ///< an Error for another format
 void write_mesh(const std::filesystem::path& path, const SurfaceMesh& mesh,
                 const std::filesystem::path& name);
 

@@ -64,18 +64,19 @@ bool write_stl(const std::filesystem::path& path, const SurfaceMesh& mesh) {
 
 }  // namespace
 
+void check_mesh_name(const std::filesystem::path& name) {
+  const std::string extension = lower(name.extension().string());
+  if (extension != ".stl" && extension != ".ply" && extension != ".obj")
+    throw Error(name.string(), "'" + extension + "' is no format for a mesh", "name it .stl, .ply or .obj");
+}
+
 void write_mesh(const std::filesystem::path& path, const SurfaceMesh& mesh,
                 const std::filesystem::path& name) {
+  check_mesh_name(name);
   const std::string extension = lower(name.extension().string());
-  bool done = false;
-  if (extension == ".stl")
-    done = write_stl(path, mesh);
-  else if (extension == ".ply")
-    done = pcl::io::savePLYFileBinary(path.string(), pcl_mesh(mesh)) == 0;
-  else if (extension == ".obj")
-    done = pcl::io::saveOBJFile(path.string(), pcl_mesh(mesh), 9) == 0;
-  else
-    throw Error(name.string(), "'" + extension + "' is no format for a mesh", "name it .stl, .ply or .obj");
+  const bool done = extension == ".stl"   ? write_stl(path, mesh)
+                    : extension == ".ply" ? pcl::io::savePLYFileBinary(path.string(), pcl_mesh(mesh)) == 0
+                                          : pcl::io::saveOBJFile(path.string(), pcl_mesh(mesh), 9) == 0;
   if (!done)
     throw Error(name.string(), "cannot be written",
                 "check the folder, its permissions and the space left on the disk");

@@ -2,13 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "report/board_overlay.h"
 
-#include <oneapi/tbb/parallel_for.h>
-
 #include <algorithm>
 #include <opencv2/imgproc.hpp>
 
-#include "core/task_order.h"
 #include "io/images.h"
+#include "parallel/parallel.h"
 
 namespace lightstripe {
 namespace {
@@ -77,9 +75,7 @@ void write_overlays(const fs::path& folder, const std::vector<SeenPicture>& pict
         folder / pictures[i].sensor / (fs::path(pictures[i].image).filename().stem().string() + ".png");
     write_rgb_image(file, overlay.rgb, overlay.width, overlay.height);
   };
-  before_tasks();
-  oneapi::tbb::parallel_for(std::size_t{0}, pictures.size(), Task(draw_and_write));
-  after_tasks();
+  parallel_for(pictures.size(), draw_and_write);
 }
 
 }  // namespace lightstripe

@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "apps/calibrate.h"
+#include "pipeline/observe_session.h"
 
 namespace lightstripe {
 

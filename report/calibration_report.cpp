@@ -2,13 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "report/calibration_report.h"
 
-#include <oneapi/tbb/parallel_for.h>
-
 #include <cmath>
 
 #include "calib/assess/diagnosis.h"
-#include "core/task_order.h"
 #include "io/images.h"
+#include "parallel/parallel.h"
 #include "report/board_overlay.h"
 #include "report/page.h"
 
@@ -155,9 +153,7 @@ json pictures_json(const std::vector<SeenPicture>& pictures, bool rejected) {
                 {"picture", "data:image/jpeg;base64," +
                                 base64(encode_jpeg(overlay.rgb, overlay.width, overlay.height))}};
   };
-  before_tasks();
-  oneapi::tbb::parallel_for(std::size_t{0}, pictures.size(), Task(draw));
-  after_tasks();
+  parallel_for(pictures.size(), draw);
   json list = json::array();
   for (auto& one : drawn)
     if (!one.is_null()) list.push_back(std::move(one));

@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "apps/calibrate.h"
+#include "pipeline/observe_session.h"
 
 namespace lightstripe {
 

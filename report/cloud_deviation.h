@@ -6,6 +6,7 @@
 #include "core/profile.h"
 #include "core/rig.h"
 #include "measure/register_section.h"
+#include "pipeline/measure_job.h"
 #include "report/cloud_view.h"
 
 namespace lightstripe {
@@ -22,5 +23,11 @@ std::vector<float> section_deviation(const Profile& profile, const Registration&
 /// Registers each frame on its own. `reference` has to outlive the result.
 FrameDeviation deviation_from(const ReferenceShape& reference, const Motion& motion,
                               const RegistrationOptions& options = {});
+
+/// The sections of a measurement with their deviations, thinned as view_of_cloud() does. `page` is where the
+/// view will be written; `scan_file` (may be empty) names the scan whose pictures are linked to.
+CloudView view_of_sections(const MeasureJob& job, const MeasureResult& result,
+                           const std::filesystem::path& page, const std::filesystem::path& scan_file,
+                           std::int64_t max_points = kMaxViewPoints);
 
 }  // namespace lightstripe

@@ -1,26 +1,22 @@
 // SPDX-FileCopyrightText: 2026 The lightstripe authors
 // SPDX-License-Identifier: Apache-2.0
-// measure.html: one file, no network. What was measured along the track, worst places first, sections drawn.
+// measure.html: one file, no network. What was measured along the track, the worst places, sections drawn.
 #pragma once
 
+#include <filesystem>
 #include <string>
-#include <vector>
 
-#include "measure/limits.h"
-#include "pipeline/measure_references.h"
+#include "pipeline/measure_job.h"
 
 namespace lightstripe {
 
-struct MeasureReport {
-  const MeasureArguments& arguments;
-  const std::vector<Profile>& profiles;
-  const MeasureOutcome& outcome;
-  const MeasureReferences& references;
-  const Limits& limits;
-  double max_overlap_gap_mm = 0;
+struct MeasureReportPlaces {
+  std::filesystem::path page;       ///< where the text will be written: links are seen from there
+  std::filesystem::path scan_file;  ///< of the sections: its pictures are shown and linked to; may be empty
+  std::string view;                 ///< link to the page that shows the cloud; may be empty
 };
 
-/// Where the arguments name a scan, its pictures are linked to, as seen from the report's place.
-std::string measure_report_html(const MeasureReport& report);
+std::string measure_report_html(const MeasureJob& job, const MeasureResult& result,
+                                const MeasureReportPlaces& places);
 
 }  // namespace lightstripe

@@ -7,6 +7,8 @@
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 
+#include "io/images.h"
+
 namespace lightstripe {
 namespace {
 
@@ -114,6 +116,14 @@ RgbPicture CloudPreview::draw(int width, int height, double azimuth_deg, double 
   if (!points_.empty()) draw_points(canvas, points_, as_seen(points_, azimuth_deg, elevation_deg));
   picture.pixels.assign(canvas.ptr<std::uint8_t>(), canvas.ptr<std::uint8_t>() + canvas.total() * 3);
   return picture;
+}
+
+void draw_preview_of(ReconstructJob& job, CloudPreview& preview, const std::filesystem::path& file) {
+  job.on_profile = [&preview](const Profile& profile) { preview.add(profile); };
+  job.before_end = [&preview, file] {
+    const RgbPicture picture = preview.draw();
+    write_rgb_image(file, picture.pixels, picture.width, picture.height);
+  };
 }
 
 RgbPicture compose_overview(const std::vector<RgbPicture>& top, const RgbPicture& bottom) {

@@ -5,11 +5,13 @@
 
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <vector>
 
 #include "core/profile.h"
 #include "core/random.h"
+#include "pipeline/reconstruct_job.h"
 
 namespace lightstripe {
 
@@ -32,6 +34,10 @@ class CloudPreview {
   std::uint64_t seen_ = 0;
   Random random_{20131};
 };
+
+/// Makes the job collect its points in `preview`, which has to live as long as the job, and draw them into
+/// `file` at its end.
+void draw_preview_of(ReconstructJob& job, CloudPreview& preview, const std::filesystem::path& file);
 
 /// Pictures side by side above one more, each scaled to its place: the demo's overview.
 RgbPicture compose_overview(const std::vector<RgbPicture>& top, const RgbPicture& bottom);

@@ -10,6 +10,8 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "core/error.h"
+
 namespace lightstripe {
 namespace {
 
@@ -143,6 +145,16 @@ RgbPicture section_picture(const SectionDrawing& drawing, const MeasuredFrame& r
   picture.width = image.cols, picture.height = image.rows;
   picture.pixels.assign(image.datastart, image.dataend);
   return picture;
+}
+
+RgbPicture plot_frame(const MeasureResult& result, std::int64_t frame) {
+  const auto row = std::find_if(result.rows.begin(), result.rows.end(),
+                                [&](const MeasuredFrame& r) { return r.frame == frame; });
+  if (row == result.rows.end())
+    throw Error(fmt::format("--plot {}", frame), "the sections have no such frame",
+                "give the number of a frame in the table");
+  const Profile& profile = result.input.profiles[static_cast<std::size_t>(row - result.rows.begin())];
+  return section_picture(draw_section(profile, row->registration, result.references.at(row->travel)), *row);
 }
 
 }  // namespace lightstripe

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "measure/measure_profile.h"
+#include "pipeline/measure_job.h"
 #include "report/preview.h"
 
 namespace lightstripe {
@@ -33,5 +34,8 @@ std::string section_svg(const SectionDrawing& drawing, int width_px);
 
 /// As a picture with its figures below.
 RgbPicture section_picture(const SectionDrawing& drawing, const MeasuredFrame& row, int width_px = 1400);
+
+/// The section of a frame on its reference, with its figures; an Error where the sections have no such frame.
+RgbPicture plot_frame(const MeasureResult& result, std::int64_t frame);
 
 }  // namespace lightstripe

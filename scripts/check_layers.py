@@ -13,15 +13,17 @@ import sys
 # folder -> our own folders that it may include (besides itself)
 MAY_INCLUDE = {
     "core": set(),
+    "parallel": {"core"},
     "io": {"core"},
     "extraction": {"core"},
-    "calib": {"extraction", "core"},
-    "reconstruct": {"extraction", "core"},
+    "calib": {"extraction", "parallel", "core"},
+    "reconstruct": {"extraction", "parallel", "core"},
     "measure": {"core"},
-    "simulate": {"core", "io"},
-    "pipeline": {"core", "io", "extraction", "calib", "reconstruct", "measure"},
-    "report": {"core", "io", "extraction", "calib", "reconstruct", "measure", "pipeline"},
-    "apps": {"core", "io", "extraction", "calib", "reconstruct", "measure", "simulate", "pipeline", "report"},
+    "simulate": {"core", "io", "parallel"},
+    "pipeline": {"core", "io", "parallel", "extraction", "calib", "reconstruct", "measure"},
+    "report": {"core", "io", "parallel", "extraction", "calib", "reconstruct", "measure", "pipeline"},
+    "truth": {"core", "io", "measure", "pipeline"},
+    "apps": {"core", "io", "parallel", "extraction", "calib", "reconstruct", "measure", "simulate", "pipeline", "report", "truth"},
 }
 # library's include prefix -> folders where it may appear
 LIBRARY_IN = {
@@ -30,11 +32,13 @@ LIBRARY_IN = {
     r"yaml-cpp/": {"io"},
     r"opencv2/(imgcodecs|videoio|highgui)": {"io"},
     r"opencv2/calib3d|opencv2/aruco|opencv2/objdetect": {"calib"},
-    r"opencv2/": {"io", "calib", "extraction", "simulate", "report", "apps"},
+    r"opencv2/": {"io", "calib", "extraction", "simulate", "pipeline", "report", "apps"},
     r"CLI/": {"apps"},
-    r"fmt/": {"io", "calib", "reconstruct", "simulate", "measure", "pipeline", "report", "apps"},
-    r"tbb/|oneapi/tbb": {"calib", "reconstruct", "simulate", "pipeline", "apps"},
+    r"fmt/": {"io", "calib", "reconstruct", "simulate", "measure", "pipeline", "report", "truth", "apps"},
+    r"tbb/|oneapi/tbb": {"parallel"},
     r"hwy/": {"extraction"},
+    r"nlohmann/": {"report"},
+    r"openssl/|xlsxwriter": {"pipeline"},
 }
 # the direction-guided core needs the standard library and Highway only
 NO_OPENCV_FILES = re.compile(r"extraction/(follow|kernels|image|lines)/")

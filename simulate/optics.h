@@ -28,7 +28,7 @@ struct SimulatedSensor {
 SimulatedSensor make_sensor(const SceneSensor& sensor);
 std::vector<SimulatedSensor> make_sensors(const Scene& scene);
 
-/// The rig that a perfect calibration of this scene finds (docs/contract.md, "Frames"). `up_hint` is what
+/// The rig that a perfect calibration of this scene finds (docs/conventions.md, "Frames"). `up_hint` is what
 /// calibration.yaml gets: the world's z in the first camera's frame.
 Rig true_rig(const Scene& scene, const std::vector<SimulatedSensor>& sensors);
 Eigen::Vector3d up_hint(const SimulatedSensor& first);

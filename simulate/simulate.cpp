@@ -2,15 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "simulate/simulate.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-
 #include <mutex>
 
-#include "core/task_order.h"
 #include "io/images.h"
 #include "io/rig_file.h"
+#include "parallel/parallel.h"
 #include "simulate/image_plan.h"
 #include "simulate/render.h"
 #include "simulate/session_output.h"
@@ -29,21 +25,6 @@ std::uint64_t stream_of(const std::string& name) {
   std::uint64_t hash = 0xcbf29ce484222325ULL;
   for (const char c : name) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3ULL;
   return hash;
-}
-
-/// Calls `work(i)` for each i < count on `threads` threads (0 = all).
-template <class Work>
-void in_parallel(int threads, std::size_t count, const Work& work) {
-  const auto run_part = [&](const tbb::blocked_range<std::size_t>& part) {
-    for (std::size_t i = part.begin(); i < part.end(); ++i) work(i);
-  };
-  tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
-  before_tasks();
-  arena.execute([&] {
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 1), Task(run_part),
-                      tbb::simple_partitioner());
-  });
-  after_tasks();
 }
 
 /// What all images need and none changes.
@@ -108,12 +89,12 @@ std::string make_image(const Studio& studio, const PlannedImage& image, const st
 Studio prepare(const Scene& scene, const ImagePlan& plan, const Rig& rig, int threads) {
   Studio studio{
       scene, plan, std::vector<RayGrid>(plan.sensors.size()), {}, rig_from_world(rig, plan.sensors)};
-  in_parallel(threads, plan.sensors.size(), [&](std::size_t i) {
+  parallel_for(plan.sensors.size(), threads, [&](std::size_t i) {
     studio.rays[i] = make_ray_grid(plan.sensors[i], blur_margin(scene.imaging) + 1);
   });
   if (scene.scan.frames == 0 || !plan.still_scan) return studio;
   std::vector<Light> stills(plan.sensors.size());
-  in_parallel(threads, plan.images.size(), [&](std::size_t i) {
+  parallel_for(plan.images.size(), threads, [&](std::size_t i) {
     const PlannedImage& image = plan.images[i];
     if (image.frame == 0) stills[image.sensor] = light_of(studio, image);
   });
@@ -133,7 +114,7 @@ SimulationSummary simulate_scene(const Scene& scene, const std::filesystem::path
   std::vector<std::string> stripes(plan.images.size());
   std::mutex reporting;
   int done = 0;
-  in_parallel(threads, plan.images.size(), [&](std::size_t i) {
+  parallel_for(plan.images.size(), threads, [&](std::size_t i) {
     stripes[i] = make_image(studio, plan.images[i], output_folder);
     const std::lock_guard<std::mutex> lock(reporting);
     if (progress) progress(++done, static_cast<int>(plan.images.size()));

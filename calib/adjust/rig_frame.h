@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The lightstripe authors
 // SPDX-License-Identifier: Apache-2.0
-// From the adjustment's frame (the first camera) to the rig frame of the contract.
+// From the adjustment's frame (the first camera) to the rig frame of docs/conventions.md.
 #pragma once
 
 #include <Eigen/Core>

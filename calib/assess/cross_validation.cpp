@@ -1,13 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The lightstripe authors
 // SPDX-License-Identifier: Apache-2.0
-#include <oneapi/tbb/parallel_for.h>
 
 #include <array>
 #include <cmath>
 
 #include "calib/assess/diagnosis.h"
 #include "calib/assess/uncertainty.h"
-#include "core/task_order.h"
+#include "parallel/parallel.h"
 
 namespace lightstripe {
 namespace {
@@ -56,9 +55,7 @@ CrossValidation cross_validate(const SessionViews& measurements, const JointAdju
   const auto adjust_half = [&](std::size_t i) {
     adjusted[i] = adjust_jointly(halves[i], adjustment.state, adjustment.lenses, options);
   };
-  before_tasks();
-  oneapi::tbb::parallel_for(std::size_t{0}, std::size_t{2}, Task(adjust_half));
-  after_tasks();
+  parallel_for(2, adjust_half);
   for (const auto& half : adjusted) {
     if (half.converged && half.covariance.size() > 0) continue;
     result.why_not = "half of the views do not determine the rig";

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "calib/start/choose_lens.h"
 
-#include <oneapi/tbb/parallel_for.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,7 +9,7 @@
 
 #include "calib/adjust/reduced_covariance.h"
 #include "calib/adjust/solve_problem.h"
-#include "core/task_order.h"
+#include "parallel/parallel.h"
 
 namespace lightstripe {
 namespace {
@@ -156,9 +154,7 @@ LensChoice choose_lens(const InitialValues& values, int sensor, const Calibratio
   const auto try_lens = [&](std::size_t i) {
     halves[i / 2][i % 2] = held_out_errors(values, sensor, i % 2, kCandidates[i / 2], options.board_warp);
   };
-  before_tasks();
-  oneapi::tbb::parallel_for(std::size_t{0}, 2 * kCandidates.size(), Task(try_lens));
-  after_tasks();
+  parallel_for(2 * kCandidates.size(), try_lens);
   std::vector<Tried> tried;
   for (std::size_t i = 0; i < kCandidates.size(); ++i) {
     auto errors = halves[i][0];

@@ -127,7 +127,7 @@ VerifiedPair compare(const SeenBoard& a, const SeenBoard& b, const std::string& 
   return pair;
 }
 
-/// A point seen at a travel (mm, degrees), brought back to travel 0; see the contract's `moves`.
+/// A point seen at a travel (mm, degrees), brought back to travel 0; see docs/conventions.md, "Travel".
 Vector3d at_travel_0(const Motion& motion, double travel, const Vector3d& p) {
   const double s = motion.rig_moves ? travel : -travel;
   if (motion.type == MotionType::kLinear) return p + s * motion.direction;

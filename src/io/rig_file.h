@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The lightstripe authors
 // SPDX-License-Identifier: Apache-2.0
-// rig.yaml: the calibrated rig on disk (docs/contract.md, "rig.yaml").
+// rig.yaml: the calibrated rig on disk (docs/interface.md, "rig.yaml").
 #pragma once
 
 #include <filesystem>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The lightstripe authors
 // SPDX-License-Identifier: Apache-2.0
-// The calibration session and the scan as people write them (docs/contract.md).
+// The calibration session and the scan as people write them (docs/interface.md).
 #pragma once
 
 #include <Eigen/Core>

@@ -36,7 +36,7 @@ std::vector<fs::path> pages() {
 std::string messages_of_the_program() {
   std::string all;
   for (const std::string folder :
-       {"src", "extraction", "calib", "reconstruct", "measure", "simulate", "apps"})
+       {"src", "extraction", "calib", "reconstruct", "measure", "simulate", "pipeline", "report", "apps"})
     for (const auto& entry : fs::recursive_directory_iterator(kSource / folder))
       if (entry.path().extension() == ".cpp") all += text_of(entry.path());
   return std::regex_replace(all, std::regex(R"("\s*\n\s*")"), "");

@@ -92,5 +92,33 @@ TEST_F(MeasureWheel, WhatIsNotSeenIsUnknown) {
   EXPECT_NEAR(value(without_rim.flange_thickness), 32.5, 0.01);
 }
 
+/// In the file's frame: the wheel's back and the datum's height are given, as in a recorded profile.
+WheelMeasurement in_its_frame(const Section& section, const ReferenceShape& reference) {
+  SectionPrior prior;
+  prior.pose = SectionPose{};
+  return measure_wheel(section, reference, register_section(section, reference, prior),
+                       {.back_is_given = true});
+}
+
+// Against S1002: the worn ones keep their tread wear; a new wheel with a flange of 32, whose tread fits to
+// the rim, and one with another flange do not.
+TEST_F(MeasureWheel, AnotherWheelHasNoTreadWearButAReason) {
+  for (const WheelWear wear : {WheelWear{0, 0}, WheelWear{2, 1.5}, WheelWear{3, 4}}) {
+    Section worn = wheel_section(worn_wheel(nominal, wear), -30, {.spacing_mm = 0.2});
+    for (SectionPoint& p : worn) p.position.y() += wear.tread_mm;  // the datum at 0
+    EXPECT_NEAR(value(in_its_frame(worn, reference).tread_wear), wear.tread_mm, 0.01);
+  }
+  Section higher = wheel_section(nominal, -30, {}), broader = higher;
+  for (SectionPoint& p : higher) p.position.y() += 4 * std::clamp((p.position.y() - 5) / 11, 0.0, 1.0);
+  for (SectionPoint& p : broader)
+    if (p.position.y() > 8) p.position.x() += 0.3 * (p.position.y() - 8) / 20 * 16;
+  const WheelMeasurement other = in_its_frame(higher, reference), odd = in_its_frame(broader, reference);
+  EXPECT_FALSE(other.tread_wear.value);
+  EXPECT_THAT(other.tread_wear.reason, HasSubstr("4.0 mm lower than S1002's out to the rim"));
+  EXPECT_NEAR(value(other.flange_height), 32, 0.01);
+  EXPECT_FALSE(odd.tread_wear.value);
+  EXPECT_THAT(odd.tread_wear.reason, HasSubstr("flange's top does not fit S1002"));
+}
+
 }  // namespace
 }  // namespace lightstripe

@@ -122,5 +122,67 @@ TEST(ProfileFormats, AreTakenByTheNamesEnd) {
   EXPECT_FALSE(profile_format(""));
 }
 
+/// The rows of a head, as both formats write them.
+std::string rows_of_head(const std::string& behind_each = "") {
+  std::string rows;
+  for (int i = -20; i <= 20; ++i)
+    rows += std::to_string(i) + ".5 " + std::to_string(i * i / -20) + ".25" + behind_each + "\n";
+  return rows;
+}
+
+std::size_t points_of(const std::string& text, bool simpack = false) {
+  std::istringstream in(text);
+  return (simpack ? read_simpack(in, "file") : read_miniprof(in, "file", ObjectKind::kRail)).points.size();
+}
+
+TEST(ProfileFormats, RemarksRowsCommentedOutAndCtrlZAreNoPoints) {
+  EXPECT_EQ(points_of("W1=1\n\n" + rows_of_head() + "\"3.0 4.0\n%5 6\n! 7 8\n# 1\n1.0 2.0  joint here\n"),
+            42u);
+  EXPECT_EQ(points_of("W1=1\n\n" + rows_of_head() + "\x1a"), 41u);
+  EXPECT_EQ(points_of("W1=1\n\n" + rows_of_head() + "\x1a\nrest of a sector"), 41u);
+  const std::string head = "units.len.f = 1000 ! mm\npoint.begin\n", end = "point.end\n";
+  EXPECT_EQ(
+      points_of(head + rows_of_head() + "%1 2\n! 3 4\n5 6 1.0 remark\n7 8 ! remark\n" + end + "\x1a", true),
+      43u);
+  EXPECT_EQ(points_of(head + rows_of_head(" 1.0 'left side'") + end, true), 41u);
+}
+
+TEST(ProfileFormats, OnlyTheFirstProfileOfAnMptIsRead) {
+  for (const std::string& behind : {"[Profile2Info]\nProgramName=own\n\n[Profile2Points]\n" + rows_of_head(),
+                                    std::string("[Profile1Results]\nW1=0.80\n"), std::string()}) {
+    std::istringstream in("[FileInfo]\nProgramName=own\n\n[Profile1Points]\n" + rows_of_head() + "\n" +
+                          behind);
+    const RecordedProfile profile = read_miniprof(in, "two.mpt", ObjectKind::kRail);
+    EXPECT_EQ(profile.points.size(), 41u) << behind;
+    EXPECT_EQ(profile.further_profiles, behind.find("Profile2") == std::string::npos ? 0 : 1);
+  }
+}
+
+TEST(ProfileFormats, DecimalCommasAreNamedAsSuch) {
+  for (const char* const row : {"12,5 -3,75\n", "-12,5\t3,75\t1\n", "12,5;3,75\n"}) {
+    std::string rows;
+    for (int i = 0; i < 20; ++i) rows += row;
+    EXPECT_THAT(message_of("W1=1\n\n" + rows), HasSubstr("has decimal commas: '"));
+    EXPECT_THAT(message_of("point.begin\n" + rows + "point.end\n", true), HasSubstr("has decimal commas: '"));
+  }
+  EXPECT_EQ(points_of("A=1\n\n" + rows_of_head() + "1,2\n1.0, 2.0\n3.0,4.0,5\n"), 44u)
+      << "commas between numbers";
+}
+
+TEST(ProfileFormats, AWheelMayCountFromItsTreadDatum) {
+  const RecordedProfile wheel = recorded("S1002", ObjectKind::kWheel);
+  for (const double x_sign : {1.0, -1.0})
+    for (const double y_sign : {1.0, -1.0}) {
+      std::ostringstream text;
+      text << "type = 1\npoint.begin\n";
+      for (const Vector2d& p : wheel.points) text << x_sign * p.x() << ' ' << y_sign * p.y() << "\n";
+      text << "point.end\n";
+      std::istringstream in(text.str());
+      const RecordedProfile back = read_simpack(in, "w");
+      for (std::size_t i = 0; i < back.points.size(); ++i)
+        ASSERT_LT((back.points[i] - wheel.points[i]).norm(), 1e-3) << x_sign << y_sign;
+    }
+}
+
 }  // namespace
 }  // namespace lightstripe

@@ -1,16 +1,19 @@
 // SPDX-FileCopyrightText: 2026 The lightstripe authors
 // SPDX-License-Identifier: Apache-2.0
-// A calibration session on disk -> observations -> rig.
+// A calibration session on disk -> what its pictures show.
 #pragma once
 
+#include <Eigen/Core>
 #include <filesystem>
+#include <stop_token>
 #include <string>
 #include <vector>
 
-#include "apps/command.h"
 #include "calib/board/observe_board.h"
 #include "calib/calibrate_rig.h"
+#include "extraction/options.h"
 #include "io/session_file.h"
+#include "pipeline/job.h"
 
 namespace lightstripe {
 
@@ -36,23 +39,8 @@ struct SessionObservations {
 };
 
 /// Reads and looks at every image of the session, in parallel; the order of the views is that of the file
-/// names.
+/// names. A stop that is asked for ends it by an Error.
 SessionObservations observe_session(const Session& session, const ExtractionOptions& extraction,
-                                    const CommonOptions& common);
-
-/// The table of sensors and views that `lightstripe calibrate` prints.
-std::string describe_calibration(const SessionObservations& seen, const CalibrationResult& result);
-
-/// What `calibrate` writes besides the rig; empty: not.
-struct CalibrationFiles {
-  std::string report;         ///< calibration.html
-  std::string overlay;        ///< folder of pictures with corners and stripes drawn in
-  std::string camera_folder;  ///< folder of the cameras in the formats of OpenCV, ROS and mrcal
-};
-
-/// The command itself, also used by the demo.
-int calibrate_session(const std::string& session_file, const Overrides& extraction,
-                      const Overrides& calibration, const CommonOptions& common,
-                      const CalibrationFiles& files = {});
+                                    const ProgressCallback& progress = {}, const std::stop_token& stop = {});
 
 }  // namespace lightstripe

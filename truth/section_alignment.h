@@ -7,15 +7,9 @@
 #include <Eigen/Core>
 #include <span>
 
+#include "core/section_move.h"
+
 namespace lightstripe {
-
-/// A rigid move in the section plane: p -> R(angle) p + translation.
-struct SectionMove {
-  double angle_rad = 0;                                   ///< counterclockwise, from u to v
-  Eigen::Vector2d translation = Eigen::Vector2d::Zero();  ///< mm
-
-  Eigen::Vector2d operator*(const Eigen::Vector2d& p) const;
-};
 
 struct SectionAlignmentOptions {
   double search_mm = 5.0;  ///< points farther from the shape have no counterpart; > the offset to be found

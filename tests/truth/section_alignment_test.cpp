@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The lightstripe authors
 // SPDX-License-Identifier: Apache-2.0
-#include "simulate/section_alignment.h"
+#include "truth/section_alignment.h"
 
 #include <gtest/gtest.h>
 

@@ -2,11 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Makes visible to TSan what oneTBB guarantees and what TSan cannot see, since oneTBB is not built with it:
 // tasks begin after their caller's earlier work and end before its later work. Without, TSan takes each
-// handover for a race. A parallel loop reads
-//   const auto work = [&](std::size_t i) { ... };
-//   before_tasks();
-//   tbb::parallel_for(begin, end, Task(work));
-//   after_tasks();
+// handover for a race. Only parallel/parallel.h and parallel.cpp use these marks.
 #pragma once
 
 #include <atomic>

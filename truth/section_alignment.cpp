@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The lightstripe authors
 // SPDX-License-Identifier: Apache-2.0
-#include "simulate/section_alignment.h"
+#include "truth/section_alignment.h"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
@@ -103,10 +103,6 @@ std::pair<Vector2d, double> centre_and_radius(std::span<const Vector2d> measured
 }
 
 }  // namespace
-
-Vector2d SectionMove::operator*(const Vector2d& p) const {
-  return Eigen::Rotation2Dd(angle_rad) * p + translation;
-}
 
 SectionAlignment align_section(std::span<const Vector2d> measured, std::span<const Vector2d> shape,
                                const SectionAlignmentOptions& options) {

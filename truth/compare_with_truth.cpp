@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The lightstripe authors
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/compare_with_truth.h"
+#include "truth/compare_with_truth.h"
 
 #include <algorithm>
 #include <array>
@@ -14,7 +14,7 @@
 #include "io/csv_reader.h"
 #include "io/rig_file.h"
 #include "pipeline/measurement_table.h"
-#include "simulate/section_alignment.h"
+#include "truth/section_alignment.h"
 
 namespace lightstripe {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The lightstripe authors
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/explain.h"
+#include "report/explain_extraction.h"
 
 #include <fmt/format.h>
 

@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/options.h"
+
+#include <algorithm>
+
+namespace lightstripe {
+
+void add_common_options(CLI::App& app, CommonOptions& options, const std::string& output_help) {
+  app.add_option("-o,--output", options.output, output_help)->group("General");
+  app.add_option("--threads", options.threads, "threads to use (default: all cores)")
+      ->check(CLI::Range(1, 1024))
+      ->group("General");
+  app.add_flag("--quiet", options.quiet, "print warnings and errors only")->group("General");
+}
+
+void add_field_options(CLI::App& app, const std::string& prefix, const std::vector<FieldText>& fields,
+                       Overrides& overrides) {
+  const std::string origin = prefix.empty() ? "" : "--" + prefix.substr(0, prefix.size() - 1);
+  for (const FieldText& field : fields) {
+    std::string flag = "--" + prefix + field.key;
+    std::replace(flag.begin(), flag.end(), '_', '-');
+    const std::string help = field.comment + (field.value.empty() ? "" : " [" + field.value + "]");
+    app.add_option_function<std::string>(
+           flag,
+           [&overrides, origin, key = field.key](const std::string& value) {
+             overrides.push_back({origin, key, value});
+           },
+           help)
+        ->group(prefix.empty() ? "Method" : "Over the file's " + prefix.substr(0, prefix.size() - 1));
+  }
+}
+
+}  // namespace lightstripe

@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+// Options of the command line: the common ones, and one for each field of an options struct.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "apps/command.h"
+#include "io/yaml_binding.h"
+
+namespace lightstripe {
+
+/// --threads, --quiet, -o/--output. `output_help` says what is written and where if it is not given.
+void add_common_options(CLI::App& app, CommonOptions& options, const std::string& output_help);
+
+/// An option of a field list as given on the command line, applied after the files were read.
+struct Override {
+  std::string origin, field, value;  ///< origin: "--extraction" of --extraction.stripe-width, for messages
+};
+using Overrides = std::vector<Override>;
+
+/// A command line option for each of these fields.
+void add_field_options(CLI::App& app, const std::string& prefix, const std::vector<FieldText>& fields,
+                       Overrides& overrides);
+
+/// One command line option for each field of T: stripe_width with prefix "extraction." becomes
+/// --extraction.stripe-width. The same field list reads the YAML files, so that no name or default is written
+/// twice.
+template <HasFields T>
+void add_field_options(CLI::App& app, const std::string& prefix, Overrides& overrides) {
+  add_field_options(app, prefix, list_fields(T{}), overrides);
+}
+
+template <HasFields T>
+void apply_overrides(T& options, const Overrides& overrides) {
+  for (const auto& given : overrides) set_field(options, given.field, given.value, given.origin);
+}
+
+}  // namespace lightstripe

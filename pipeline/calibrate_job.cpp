@@ -1,0 +1,93 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+#include "pipeline/calibrate_job.h"
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "io/atomic_file.h"
+#include "io/camera_file.h"
+#include "io/images.h"
+#include "io/rig_file.h"
+#include "pipeline/calibration_advice.h"
+#include "pipeline/run_record.h"
+
+namespace lightstripe {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Each sensor's camera as <name>.opencv.yaml, .ros.yaml and .cameramodel; what a format cannot hold becomes
+/// a warning.
+void write_cameras(const fs::path& folder, const Rig& rig, std::vector<std::string>& warnings) {
+  for (const Sensor& sensor : rig.sensors) {
+    const auto base = (folder / sensor.name).string();
+    write_file(base + ".opencv.yaml", opencv_camera_yaml(sensor.camera));
+    try {
+      write_file(base + ".cameramodel", mrcal_cameramodel(sensor.camera, sensor.rig_from_camera.inverse()));
+      write_file(base + ".ros.yaml", ros_camera_info_yaml(sensor.camera, sensor.name));
+    } catch (const Error& error) {
+      warnings.push_back(sensor.name + ": " + error.what());
+    }
+  }
+}
+
+/// The session with all that it names.
+std::vector<fs::path> inputs_of(const CalibrateJob& job) {
+  const Session& session = job.session;
+  std::vector<fs::path> inputs{job.session_file};
+  const auto add = [&](const std::string& pattern) {
+    for (const auto& file : list_files(session.folder, pattern))
+      inputs.push_back(file.is_absolute() ? file : session.folder / file);
+  };
+  for (const SessionSensor& sensor : session.sensors) {
+    add(sensor.board);
+    if (sensor.laser) add(*sensor.laser);
+    if (sensor.camera) inputs.push_back(session.folder / *sensor.camera);
+  }
+  if (session.motion) {
+    add(session.motion->board);
+    inputs.push_back(session.folder / session.motion->travel);
+  }
+  std::vector<fs::path> once;  // a board with the stripe on it serves twice
+  for (const fs::path& input : inputs)
+    if (std::find(once.begin(), once.end(), input) == once.end()) once.push_back(input);
+  return once;
+}
+
+void write_results(const CalibrateJob& job, CalibrateResult& result) {
+  const Rig& rig = result.calibration.rig;
+  if (!job.rig.empty()) write_file(job.rig, rig_to_yaml(rig));
+  if (!job.camera_folder.empty()) write_cameras(job.camera_folder, rig, result.warnings);
+  if (job.rig.empty()) return;
+  write_run_record(job.rig, "calibrate", inputs_of(job),
+                   "extraction:\n" + indented(dump_yaml(job.extraction)) + "calibration:\n" +
+                       indented(dump_yaml(job.calibration)));
+}
+
+}  // namespace
+
+CalibrateJob read_calibrate_job(const fs::path& session_file) {
+  CalibrateJob job;
+  job.session_file = session_file;
+  job.session = read_session(session_file);
+  read_subtree(job.session.extraction, job.extraction);
+  read_subtree(job.session.calibration, job.calibration);
+  return job;
+}
+
+CalibrateResult calibrate(const CalibrateJob& job, const ProgressCallback& progress,
+                          const std::stop_token& stop) {
+  const JobThreads threads(job.threads);
+  CalibrateResult result;
+  result.seen = observe_session(job.session, job.extraction, progress, stop);
+  result.calibration = calibrate_rig(result.seen.observations, job.calibration);
+  result.warnings = result.calibration.rig.quality.warnings;
+  if (result.calibration.summary.usable)
+    write_results(job, result);
+  else
+    result.not_usable = result.calibration.summary.message + calibration_advice(job.session, result.seen);
+  return result;
+}
+
+}  // namespace lightstripe

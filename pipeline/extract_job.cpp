@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+#include "pipeline/extract_job.h"
+
+#include <algorithm>
+#include <fstream>
+
+#include "core/error.h"
+#include "extraction/extract_stripes.h"
+#include "extraction/workspace.h"
+#include "io/atomic_file.h"
+#include "io/tables.h"
+
+namespace lightstripe {
+namespace {
+
+struct ExtractedImage {
+  std::string rows;
+  std::size_t lines = 0, points = 0;
+};
+
+/// What is kept from image to image.
+struct ExtractMemory {
+  ExtractionWorkspace workspace;
+  ExtractionResult result;
+};
+
+ExtractedImage extract_one(const ExtractJob& job, std::size_t index, ExtractMemory& memory) {
+  const Image8 image = read_image(job.images[index], job.channel);
+  extract_stripes(image, job.extraction, memory.workspace, memory.result);
+  ExtractedImage out;
+  append_stripes(out.rows, job.images[index], memory.result.stripes);
+  out.lines = memory.result.stripes.size();
+  for (const auto& stripe : memory.result.stripes) out.points += stripe.points.size();
+  if (job.on_image) job.on_image(index, image, memory.result);
+  return out;
+}
+
+}  // namespace
+
+ExtractResult extract(const ExtractJob& job, const ProgressCallback& progress, const std::stop_token& stop) {
+  const JobThreads threads(job.threads);
+  const std::size_t total = job.images.size();
+  const std::size_t batch = 2 * static_cast<std::size_t>(thread_count(job.threads));  // bounds the memory
+  AtomicFile file(job.table);
+  std::ofstream table(file.temporary(), std::ios::binary);
+  table << kStripesHeader;
+  StepCounter steps("extracting", "images", static_cast<std::int64_t>(total), progress);
+  WorkspacePool<ExtractMemory> memories;
+  ExtractResult out;
+  for (std::size_t begin = 0; begin < total; begin += batch) {
+    if (stop.stop_requested())
+      throw Error(job.table.string(), "the run was stopped before all pictures were done", "run it again");
+    std::vector<ExtractedImage> results(std::min(batch, total - begin));
+    parallel_for(results.size(), [&](std::size_t i) {
+      memories.with([&](ExtractMemory& memory) { results[i] = extract_one(job, begin + i, memory); });
+      steps.step();
+    });
+    for (const auto& result : results) {
+      table << result.rows;
+      if (job.on_row) job.on_row(out.images);
+      ++out.images;
+      out.lines += result.lines;
+      out.points += result.points;
+    }
+  }
+  table.close();
+  if (!table) throw Error(file.path().string(), "writing failed", "check the disk's free space");
+  file.commit();
+  return out;
+}
+
+}  // namespace lightstripe

@@ -1,0 +1,146 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+#include "pipeline/measure_job.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <sstream>
+
+#include "core/error.h"
+#include "io/atomic_file.h"
+#include "io/rig_file.h"
+#include "io/yaml_binding.h"
+#include "measure/measure_track.h"
+#include "measure/profile_formats.h"
+#include "pipeline/measurement_table.h"
+#include "pipeline/measurement_workbook.h"
+#include "pipeline/run_record.h"
+
+namespace lightstripe {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// How well the rig knows the distance from its axis: the larger of the axis point's sigmas; nothing if the
+/// rig says none.
+std::optional<double> axis_sigma(const fs::path& rig_file, std::vector<std::string>& warnings) {
+  std::optional<double> largest;
+  for (const auto& [name, sigma] : read_rig(rig_file).quality.sigma)
+    if (name.find("axis_point") != std::string::npos) largest = std::max(largest.value_or(0), sigma);
+  if (!largest) warnings.push_back(rig_file.string() + " says no error of its axis: the diameter gets none");
+  return largest;
+}
+
+std::string effective_options(const MeasureJob& job) {
+  std::string text = fmt::format("kind: {}\nregistration:\n{}", kind_name(job.kind),
+                                 indented(dump_yaml(job.options.registration)));
+  text += job.kind == ObjectKind::kRail ? "rail:\n" + indented(dump_yaml(job.options.rail))
+                                        : "wheel:\n" + indented(dump_yaml(job.options.wheel));
+  return text + "limits:\n" + indented(dump_yaml(job.limits));
+}
+
+void write_section(const fs::path& path, const RecordedProfile& profile, bool simpack) {
+  std::ostringstream text;
+  simpack ? write_simpack(text, profile) : write_miniprof(text, profile);
+  write_file(path, text.str());
+}
+
+/// Each section that was registered, on its reference, as a railway file.
+void export_sections(const MeasureJob& job, const MeasureResult& result) {
+  const bool simpack = job.export_format == SectionFormat::kSimpack, rail = job.kind == ObjectKind::kRail;
+  const char* const extension = simpack ? (rail ? "prr" : "prw") : rail ? "ban" : "whl";
+  for (std::size_t i = 0; i < result.rows.size(); ++i) {
+    const MeasuredFrame& row = result.rows[i];
+    if (!row.registration.usable()) continue;
+    RecordedProfile profile;
+    profile.kind = job.kind;
+    for (const ProfilePoint& p : result.input.profiles[i].points)
+      profile.points.push_back(row.registration.reference_from_section * Eigen::Vector2d(p.u, p.v));
+    profile.header["Frame"] = std::to_string(row.frame);
+    write_section(job.export_folder / fmt::format("section_{:06}.{}", row.frame, extension), profile,
+                  simpack);
+  }
+}
+
+void warn_of_likeness(const IdentifiedRail& found, std::vector<std::string>& warnings) {
+  if (found.also.empty()) return;
+  warnings.push_back(
+      fmt::format("{} cannot be told from {}: they differ in the head only, which wears; name the right one "
+                  "with --nominal",
+                  found.name, fmt::join(found.also, ", ")));
+}
+
+/// Each name that the user requires has to be a column of the table.
+void check_required(const MeasureJob& job) {
+  std::vector<std::string> names = estimate_names(job.kind);
+  const auto extras = job.reference.two_rails ? track_extra_names() : extra_names(job.kind);
+  names.insert(names.end(), extras.begin(), extras.end());
+  for (const std::string& name : job.options.required)
+    if (std::find(names.begin(), names.end(), name) == names.end())
+      throw Error("--require", fmt::format("'{}' is no quantity of a {}", name, kind_name(job.kind)),
+                  fmt::format("name one of {}", fmt::join(names, ", ")));
+}
+
+std::string why_not_usable(const MeasureJob& job, const MeasureResult& result) {
+  if (result.num_known > 0) return "";
+  return job.options.required.empty()
+             ? fmt::format("nothing could be measured in any of {} frames", result.rows.size())
+             : fmt::format("none of {} is known in any of {} frames", fmt::join(job.options.required, ", "),
+                           result.rows.size());
+}
+
+MeasureResult prepare(const MeasureJob& job) {
+  check_required(job);
+  std::vector<std::string> warnings;
+  MeasureInput input = read_measure_input(job.profiles.string(), job.kind);
+  if (!job.rig.empty() && job.kind == ObjectKind::kWheel)
+    input.wheel.axis_sigma_mm = axis_sigma(job.rig, warnings);
+  MeasureReferences references(job.reference, input, job.options, job.rig);
+  if (references.identified()) warn_of_likeness(*references.identified(), warnings);
+  MeasureResult result{std::move(input), std::move(references), {}};
+  result.warnings = std::move(warnings);
+  result.extra_columns = result.references.extra_columns();
+  result.rows.resize(result.input.profiles.size());
+  return result;
+}
+
+void write_results(const MeasureJob& job, const MeasureResult& result) {
+  if (!job.export_folder.empty()) export_sections(job, result);
+  if (job.table.empty()) return;
+  if (job.table.extension() == ".xlsx")
+    write_measurement_workbook(job.table, result.rows, job.kind, result.extra_columns, result.verdicts,
+                               job.limits);
+  else
+    write_file(job.table, measurement_table(result.rows, job.kind, result.extra_columns, result.verdicts));
+  write_run_record(job.table, "measure", {job.profiles}, effective_options(job));
+}
+
+}  // namespace
+
+MeasureResult measure(const MeasureJob& job, const ProgressCallback& progress, const std::stop_token& stop) {
+  const JobThreads threads(job.threads);
+  MeasureResult result = prepare(job);
+  const std::vector<Profile>& profiles = result.input.profiles;
+  StepCounter steps("measuring", "frames", static_cast<std::int64_t>(profiles.size()), progress);
+  parallel_for(profiles.size(), [&](std::size_t i) {
+    if (stop.stop_requested()) return;
+    result.rows[i] = result.references.measure(profiles[i], result.input, job.options);
+    steps.step();
+  });
+  if (stop.stop_requested())
+    throw Error(job.profiles.string(), "the run was stopped before all sections were measured",
+                "run it again");
+  if (job.kind == ObjectKind::kWheel) result.run_out = find_run_out(result.rows);
+  for (const MeasuredFrame& row : result.rows) {
+    result.verdicts.push_back(verdict_name(judge(row, job.limits)));
+    result.num_ok += row.status == "ok" ? 1 : 0;
+    result.num_known += any_known(row, job.options) ? 1 : 0;
+  }
+  write_results(job, result);
+  result.not_usable = why_not_usable(job, result);
+  return result;
+}
+
+}  // namespace lightstripe

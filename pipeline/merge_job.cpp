@@ -1,0 +1,139 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+#include "pipeline/merge_job.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <optional>
+#include <string>
+
+#include "core/error.h"
+#include "io/number_text.h"
+#include "io/resumable_file.h"
+#include "io/tables.h"
+#include "pipeline/run_record.h"
+#include "reconstruct/cloud_header.h"
+
+namespace lightstripe {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What a part adds to the result: its bytes from here on.
+struct Part {
+  fs::path file;
+  std::uint64_t content_at = 0;
+  std::int64_t num_points = 0;
+  std::optional<std::pair<std::int64_t, std::int64_t>> frames;  ///< first and last; none: no points, or .xyz
+};
+
+Part cloud_part(const fs::path& file, CloudFormat format) {
+  if (format == CloudFormat::kXyz) return {file, 0, 0, std::nullopt};
+  const CloudPart cloud = inspect_cloud(file);
+  Part part{file, cloud.points_at, cloud.num_points, std::nullopt};
+  if (cloud.num_points > 0) part.frames = {cloud.first_frame, cloud.last_frame};
+  return part;
+}
+
+std::int64_t frame_of_row(const std::string& row, const fs::path& file) {
+  const auto frame = parse_integer(std::string_view(row).substr(0, row.find(',')));
+  if (!frame)
+    throw Error(file.string(), "has a row that begins with no frame", "reconstruct this part again");
+  return *frame;
+}
+
+/// The text behind the last line break but one; the file has to end with a line break.
+std::string last_row(std::ifstream& in, const fs::path& file) {
+  constexpr std::uintmax_t kLongestRow = 4096;
+  const std::uintmax_t size = fs::file_size(file), length = std::min(kLongestRow, size);
+  std::string tail(length, '\0');
+  in.clear();
+  in.seekg(static_cast<std::streamoff>(size - length));
+  in.read(tail.data(), static_cast<std::streamsize>(length));
+  if (tail.empty() || tail.back() != '\n')
+    throw Error(file.string(), "ends within a row", "reconstruct this part again");
+  tail.pop_back();
+  return tail.substr(tail.rfind('\n') + 1);
+}
+
+Part profiles_part(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in) throw Error(file.string(), "cannot be read", "check the path");
+  std::string head, row;
+  if (!std::getline(in, head) || head + "\n" != kProfilesHeader)
+    throw Error(file.string(), "is no profiles.csv of lightstripe", "give the tables of the parts");
+  Part part{file, kProfilesHeader.size(), 0, std::nullopt};
+  if (!std::getline(in, row)) return part;
+  part.frames = {frame_of_row(row, file), 0};
+  part.frames->second = frame_of_row(last_row(in, file), file);
+  return part;
+}
+
+/// In order of frames; an Error where two parts have frames in common.
+void put_in_order(std::vector<Part>& parts) {
+  const auto before = [](const Part& a, const Part& b) {
+    return a.frames && b.frames && a.frames->first < b.frames->first;
+  };
+  std::vector<Part> filled;
+  for (const Part& part : parts)
+    if (part.frames) filled.push_back(part);
+  if (filled.empty()) return;  // .xyz files name no frames: the order given
+  std::stable_sort(filled.begin(), filled.end(), before);
+  for (std::size_t i = 1; i < filled.size(); ++i)
+    if (filled[i].frames->first <= filled[i - 1].frames->second)
+      throw Error(filled[i].file.string(),
+                  fmt::format("has frames {} to {}, and {} has {} to {}", filled[i].frames->first,
+                              filled[i].frames->second, filled[i - 1].file.string(),
+                              filled[i - 1].frames->first, filled[i - 1].frames->second),
+                  "give parts that do not overlap");
+  parts = filled;
+}
+
+void copy_content(const Part& part, ResumableFile& out) {
+  std::ifstream in(part.file, std::ios::binary);
+  in.seekg(static_cast<std::streamoff>(part.content_at));
+  std::vector<char> block(std::size_t{1} << 20);
+  while (in.read(block.data(), static_cast<std::streamsize>(block.size())), in.gcount() > 0)
+    out.append({block.data(), static_cast<std::size_t>(in.gcount())});
+  if (in.bad()) throw Error(part.file.string(), "cannot be read to its end", "check the disk");
+}
+
+std::vector<Part> read_parts(const MergeJob& job, bool table, CloudFormat format) {
+  std::vector<Part> parts;
+  for (const fs::path& file : job.parts) {
+    if (file.extension() != job.output.extension())
+      throw Error(file.string(), "has another format than " + job.output.string(),
+                  "give parts and result the same extension");
+    parts.push_back(table ? profiles_part(file) : cloud_part(file, format));
+  }
+  return parts;
+}
+
+}  // namespace
+
+MergeResult merge(const MergeJob& job) {
+  const bool table = job.output.extension() == ".csv";
+  const CloudFormat format = table ? CloudFormat::kPly : cloud_format(job.output, job.output.string());
+  std::vector<Part> parts = read_parts(job, table, format);
+  put_in_order(parts);
+  MergeResult result;
+  for (const Part& part : parts) result.num_points += part.num_points;
+  if (result.num_points > kMaxCloudPoints)
+    throw Error(job.output.string(), fmt::format("the cloud would exceed {} points", kMaxCloudPoints),
+                "merge fewer parts");
+  ResumableFile out(job.output,
+                    table ? std::string(kProfilesHeader) : cloud_header(format, result.num_points));
+  try {
+    for (const Part& part : parts) copy_content(part, out);
+    out.commit();
+  } catch (...) {
+    out.discard();
+    throw;
+  }
+  write_run_record(job.output, "merge", job.parts, "");
+  return result;
+}
+
+}  // namespace lightstripe

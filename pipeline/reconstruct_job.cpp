@@ -1,0 +1,265 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+#include "pipeline/reconstruct_job.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <fstream>
+#include <limits>
+
+#include "core/error.h"
+#include "io/atomic_file.h"
+#include "io/images.h"
+#include "io/rig_file.h"
+#include "pipeline/recording.h"
+#include "pipeline/run_record.h"
+#include "pipeline/scan_output.h"
+#include "reconstruct/cloud.h"
+
+namespace lightstripe {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A job whose frames are known.
+struct Run {
+  const ReconstructJob& job;
+  Recording recording;
+  std::int64_t first_frame, end_frame;
+};
+
+Run open_run(const ReconstructJob& job) {
+  Recording recording(job.scan, job.scan_file.string(), job.rig);
+  const std::int64_t first = recording.first_frame(), end = recording.end_frame();
+  const std::int64_t from = job.first_frame.value_or(first), to = job.end_frame.value_or(end);
+  if (from >= end || to <= first || to <= from)
+    throw Error(fmt::format("frames {}:{}", from, to),
+                fmt::format("the recording has frames {} to {} only", first, end - 1), "give another range");
+  return {job, std::move(recording), std::max(from, first), std::min(to, end)};
+}
+
+/// Of everything that the files' bytes depend on, the pictures' content excepted.
+std::string fingerprint_of(const Run& run) {
+  const ReconstructJob& job = run.job;
+  std::uint64_t hash = fnv1a(LIGHTSTRIPE_VERSION);
+  hash = fnv1a(dump_yaml(job.extraction), hash);
+  hash = fnv1a(read_file(job.scan_file), hash);
+  hash = fnv1a(read_file(job.rig_file), hash);
+  if (run.recording.table()) hash = fnv1a(read_file(*run.recording.table()), hash);
+  hash = fnv1a(fmt::format("{}:{} {} {}", run.first_frame, run.end_frame, job.cloud.extension().string(),
+                           !job.profiles.empty()),
+               hash);
+  for (std::int64_t frame = run.first_frame; frame < run.end_frame; ++frame)
+    for (std::size_t s = 0; s < job.rig.sensors.size(); ++s)
+      hash = fnv1a(run.recording.picture_name(frame, static_cast<int>(s)) + "/", hash);
+  return fmt::format("{:016x}", hash);
+}
+
+/// Tells the points that an earlier run has left in its cloud.
+void tell_earlier_points(const fs::path& cloud, std::int64_t num_points,
+                         const std::function<void(const Profile&)>& tell) {
+  const CloudFormat format = cloud_format(cloud, cloud.string());
+  if (format == CloudFormat::kXyz)
+    throw Error(cloud.string(), "a .xyz file cannot be gone on with where a picture is drawn",
+                "leave --preview out");
+  std::ifstream file(cloud, std::ios::binary);
+  file.seekg(static_cast<std::streamoff>(cloud_header(format, 0).size()));
+  Profile one;
+  one.points.resize(1);
+  CloudPoint point;
+  for (std::int64_t i = 0; i < num_points && file.read(reinterpret_cast<char*>(&point), sizeof(point)); ++i) {
+    one.points[0].position = {point.x, point.y, point.z};
+    tell(one);
+  }
+}
+
+/// What an earlier run has done; its ranges follow from the travel table.
+ScanSummary earlier_part(const Run& run, const ScanTally& tally) {
+  ScanSummary summary{tally.counts, {}, {}, false};
+  for (std::int64_t frame = run.first_frame; frame < tally.next_frame; ++frame) {
+    if (!run.recording.recorded(frame)) continue;
+    const auto position = run.recording.position(frame);
+    if (!position) summary.without_position.add(frame);
+    if (position && position->interpolated) summary.interpolated.add(frame);
+  }
+  return summary;
+}
+
+ScanInput scan_input(const Run& run, const ScanOutput& output, const std::stop_token& stop) {
+  const Recording& recording = run.recording;
+  ScanInput input;
+  input.first_frame = output.tally().next_frame;
+  input.end_frame = run.end_frame;
+  input.before = earlier_part(run, output.tally());
+  input.strict = run.job.strict;
+  input.stop = stop;
+  input.read = [&](std::int64_t frame, int sensor) { return recording.read(frame, sensor); };
+  input.position = [&](std::int64_t frame) { return recording.position(frame); };
+  input.recorded = [&](std::int64_t frame) { return recording.recorded(frame); };
+  input.encode = [&](ScannedFrame& frame) { output.encode(frame); };
+  return input;
+}
+
+/// Largest grey level, of 8 bits, of the first pictures that can be read.
+int brightest_level(const Run& run) {
+  const Recording& recording = run.recording;
+  constexpr int kPictures = 5;
+  int looked_at = 0, brightest = 0;
+  for (std::int64_t frame = run.first_frame; frame < run.end_frame; ++frame)
+    for (int sensor = 0; sensor < static_cast<int>(run.job.rig.sensors.size()); ++sensor) {
+      if (looked_at == kPictures) return brightest;
+      if (recording.picture_name(frame, sensor).empty()) continue;
+      try {
+        const auto picture = recording.read(frame, sensor);
+        ++looked_at;
+        if (const auto* image = picture ? std::get_if<Image8>(&*picture) : nullptr; image != nullptr)
+          brightest = std::max<int>(brightest, *std::max_element(image->pixels.begin(), image->pixels.end()));
+        else
+          return 255;  // of 16 bits nobody knows which are used
+      } catch (const Error&) {
+        continue;  // was told when its turn came
+      }
+    }
+  return brightest;
+}
+
+std::string in_quotes(const std::string& text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') out.push_back('\\');
+    out.push_back(c);
+  }
+  return out + '"';
+}
+
+void write_record(const Run& run, const ReconstructResult& result, const fs::path& cloud) {
+  std::string text =
+      fmt::format("frames: \"{}:{}\"\ncomplete: {}\n", result.first_frame,
+                  result.summary.stopped ? result.end_frame : run.end_frame, !result.summary.stopped);
+  if (!result.summary.without_position.empty())
+    text += fmt::format("without_position: \"{}\"\n", result.summary.without_position.text(1000));
+  if (!result.summary.interpolated.empty())
+    text += fmt::format("travel_interpolated: \"{}\"\n", result.summary.interpolated.text(1000));
+  if (result.summary.pictures_skipped > 0)
+    text += fmt::format("pictures_skipped: {}\nskipped:\n", result.summary.pictures_skipped);
+  for (const NamedSkip& skip : result.skipped)
+    text += fmt::format("  - {{frame: {}, sensor: {}, reason: {}}}\n", skip.frame,
+                        run.job.rig.sensors[static_cast<std::size_t>(skip.picture.sensor)].name,
+                        in_quotes(skip.picture.reason));
+  std::vector<fs::path> inputs{run.job.scan_file, run.job.rig_file};
+  if (run.recording.table()) inputs.push_back(*run.recording.table());
+  write_run_record(cloud, "reconstruct", inputs,
+                   text + "extraction:\n" + indented(dump_yaml(run.job.extraction)));
+}
+
+/// Gives the finished or interrupted files their names and their records.
+void close_output(const Run& run, ScanOutput& output, ReconstructResult& result) {
+  const fs::path partial = output.partial_cloud();
+  std::error_code ignored;
+  if (result.summary.stopped) {
+    output.keep();
+    result.partial_cloud = partial;
+    return write_record(run, result, partial);
+  }
+  if (result.summary.points == 0) return output.discard();
+  output.commit();
+  if (run.job.before_end) run.job.before_end();
+  write_record(run, result, run.job.cloud);
+  fs::remove(partial.string() + ".run.yaml", ignored);
+  output.forget_journal();
+}
+
+void refuse_unusable_pictures(const ReconstructJob& job, const ReconstructResult& result) {
+  if (result.summary.pictures == 0 && !result.summary.stopped && !result.skipped.empty())
+    throw Error(job.scan_file.string(),
+                fmt::format("none of its pictures can be used, the first because: {}",
+                            result.skipped.front().picture.reason),
+                "look at the pictures");
+  if (job.strict && !result.duplicate_pictures.empty())
+    throw Error(result.duplicate_pictures.front(), "another picture has the same number", "keep one of them");
+}
+
+/// Why there is nothing, and what helps.
+std::string why_empty(const ReconstructResult& result) {
+  const ScanSummary& summary = result.summary;
+  if (summary.frames == 0)
+    return "none of the frames has a position (nothing is written); number the travel table's frames as the "
+           "pictures";
+  std::string text =
+      fmt::format("no stripe was found in any of the {} frames (nothing is written); ", summary.frames);
+  constexpr int kDark = 60;
+  if (result.brightest < kDark)
+    text +=
+        fmt::format("the pictures are dark, grey level {} at most: expose longer, or switch the laser on; ",
+                    result.brightest);
+  return text + "look at a frame with `lightstripe extract --overlay`";
+}
+
+std::string why_not_usable(const ReconstructResult& result) {
+  if (result.summary.stopped)
+    return fmt::format("interrupted before frame {}; what is done is kept in {}; --resume goes on from there",
+                       result.end_frame, result.partial_cloud.string());
+  return result.summary.points == 0 ? why_empty(result) : "";
+}
+
+/// The scan itself.
+void scan(const Run& run, ScanOutput& output, const ProgressCallback& progress, const std::stop_token& stop,
+          ReconstructResult& result) {
+  const ReconstructJob& job = run.job;
+  const auto start = std::chrono::steady_clock::now();
+  const std::int64_t frames_before = output.tally().counts.frames;
+  const ScanInput input = scan_input(run, output, stop);
+  StepCounter steps("reconstructing", "frames", input.end_frame - input.first_frame, progress);
+  result.summary = scan_profiles(input, job.rig, job.extraction, thread_count(job.threads),
+                                 [&](const ScannedFrame& frame) {
+                                   output.append(frame);
+                                   if (job.on_profile) job.on_profile(frame.profile);
+                                   steps.step();
+                                 });
+  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  result.frames_now = result.summary.frames - frames_before;
+}
+
+}  // namespace
+
+ReconstructJob read_reconstruct_job(const fs::path& scan_file, const fs::path& rig_file) {
+  ReconstructJob job;
+  job.scan_file = scan_file;
+  job.scan = read_scan(scan_file);
+  job.rig_file = rig_file.empty() ? job.scan.folder / job.scan.rig : rig_file;
+  job.rig = read_rig(job.rig_file);
+  read_subtree(job.scan.extraction, job.extraction);
+  return job;
+}
+
+std::pair<std::int64_t, std::int64_t> frames_to_reconstruct(const ReconstructJob& job) {
+  const Run run = open_run(job);
+  return {run.first_frame, run.end_frame};
+}
+
+ReconstructResult reconstruct(const ReconstructJob& job, const ProgressCallback& progress,
+                              const std::stop_token& stop) {
+  const JobThreads threads(job.threads);
+  const Run run = open_run(job);
+  ScanOutput output({job.cloud, job.profiles, run.first_frame, fingerprint_of(run), job.resume,
+                     std::chrono::milliseconds(static_cast<std::int64_t>(1000 * job.checkpoint_s))});
+  const std::int64_t points_before = output.tally().counts.points;
+  if (job.on_profile && points_before > 0)
+    tell_earlier_points(output.was_complete() ? job.cloud : output.partial_cloud(), points_before,
+                        job.on_profile);
+  ReconstructResult result;
+  scan(run, output, progress, stop, result);
+  result.first_frame = run.first_frame;
+  result.end_frame = result.summary.stopped ? output.tally().next_frame : run.end_frame;
+  result.skipped = output.tally().skipped;
+  result.duplicate_pictures = run.recording.duplicate_pictures();
+  refuse_unusable_pictures(job, result);
+  if (result.summary.points == 0) result.brightest = brightest_level(run);
+  close_output(run, output, result);
+  result.not_usable = why_not_usable(result);
+  return result;
+}
+
+}  // namespace lightstripe

@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+#include "report/extraction_pictures.h"
+
+#include <fmt/format.h>
+
+#include <set>
+
+#include "extraction/draw/histogram_plot.h"
+#include "extraction/draw/overlay.h"
+#include "io/images.h"
+
+namespace lightstripe {
+
+namespace fs = std::filesystem;
+
+std::vector<fs::path> overlay_files(const std::vector<std::string>& images, const fs::path& folder) {
+  std::vector<fs::path> names;
+  std::set<std::string> taken;
+  for (const auto& image : images) {
+    const fs::path path(image);
+    std::string name = path.stem().string();
+    if (taken.contains(name)) name = path.parent_path().filename().string() + "_" + name;
+    for (int copy = 2; taken.contains(name); ++copy) name = fmt::format("{}_{}", path.stem().string(), copy);
+    taken.insert(name);
+    names.push_back(folder / (name + ".png"));
+  }
+  return names;
+}
+
+void write_overlay(const fs::path& file, const Image8& image, const ExtractionResult& result) {
+  write_rgb_image(file, draw_overlay(image, result.stripes), image.width, image.height);
+}
+
+void write_histogram(const fs::path& overlay, const Image8& image, const ExtractionResult& result) {
+  fs::path picture = overlay;
+  picture.replace_filename(overlay.stem().string() + "_histogram.png");
+  write_rgb_image(picture, draw_histogram(compute_histogram(image.view()), result), kHistogramPlotWidth,
+                  kHistogramPlotHeight);
+}
+
+}  // namespace lightstripe

@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+// Pictures of what the extraction saw in single images.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/image.h"
+#include "extraction/result.h"
+
+namespace lightstripe {
+
+/// <folder>/<image's name>.png for each image. Images of the same name from several folders are kept apart by
+/// their folder's name in front, or by a number.
+std::vector<std::filesystem::path> overlay_files(const std::vector<std::string>& images,
+                                                 const std::filesystem::path& folder);
+
+/// Writes the image with its lines drawn in.
+void write_overlay(const std::filesystem::path& file, const Image8& image, const ExtractionResult& result);
+
+/// Writes the image's histogram with the thresholds beside the overlay, as <overlay>_histogram.png.
+void write_histogram(const std::filesystem::path& overlay, const Image8& image,
+                     const ExtractionResult& result);
+
+}  // namespace lightstripe
