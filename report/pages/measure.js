@@ -5,6 +5,7 @@ const rows = data.rows, count = rows.frame.length;
 const travelMoves = Math.max(...rows.travel) > Math.min(...rows.travel);
 const along = i => travelMoves ? rows.travel[i] : rows.frame[i];
 const alongText = !travelMoves ? 'frame' : data.rotary ? 'angle, \u00b0' : 'travel, mm';
+const placeOf = i => !travelMoves ? '' : data.rotary ? `, angle ${fixed(along(i), 1)}\u00b0` : `, travel ${fixed(along(i), 1)} mm`;
 const fixed = (v, digits) => v === null || v === undefined ? '-' : (Number(v.toFixed(digits)) || 0).toFixed(digits);
 const withUnit = q => q.label + ', ' + q.unit;
 
@@ -87,7 +88,7 @@ function showChart(q) {
       interaction: { mode: 'nearest', axis: 'x', intersect: false },
       onClick: (e, hit) => { if (hit.length) location.hash = '#f' + rows.frame[nearestSection(hit[0].element.$context.raw.row).row]; },
       plugins: { legend: { display: false }, tooltip: { filter: c => c.datasetIndex === 0, displayColors: false, callbacks: {
-        title: c => c.length ? `frame ${rows.frame[c[0].raw.row]}, ${alongText} ${fixed(along(c[0].raw.row), 2)}` : '',
+        title: c => c.length ? `frame ${rows.frame[c[0].raw.row]}${placeOf(c[0].raw.row)}` : '',
         label: c => `${fixed(c.raw.y, q.decimals)} ${q.unit}` + (q.sigmas[c.raw.row] !== null ? `, sigma ${fixed(q.sigmas[c.raw.row], Math.max(3, q.decimals))}` : ''),
         afterLabel: c => rows.status[c.raw.row] === 'ok' ? '' : rows.status[c.raw.row] } } },
       scales: { x: { type: 'linear', min: Math.min(...rows.travel.map((_, i) => along(i))), max: Math.max(...rows.travel.map((_, i) => along(i))), title: { display: true, text: alongText } },
@@ -165,7 +166,7 @@ function showSection(s) {
   const figure = element('figure', undefined, at('sections')), i = s.row;
   figure.id = 'f' + rows.frame[i];
   s.drawings.forEach(d => drawSection(figure, d));
-  element('figcaption', `frame ${rows.frame[i]}, ${alongText} ${fixed(along(i), 1)}: ${rows.status[i]}; differences ${s.drawings[0].enlarged} times`, figure);
+  element('figcaption', `frame ${rows.frame[i]}${placeOf(i)}: ${rows.status[i]}; differences ${s.drawings[0].enlarged} times`, figure);
   if (!s.pictures.length) return;
   const thumbs = element('div', undefined, figure, 'thumbs');
   s.pictures.forEach(p => {
