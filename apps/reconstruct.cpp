@@ -44,7 +44,19 @@ void warn_of_skipped(const ReconstructResult& result, const std::string& output)
                      result.duplicate_pictures.size(), result.duplicate_pictures.front()));
 }
 
-void warn_of_gaps(const ScanSummary& summary) {
+void warn_of_gaps(const ReconstructResult& result) {
+  const ScanSummary& summary = result.summary;
+  for (const std::string& warning : result.warnings) warn(warning);
+  if (!result.without_picture.empty())
+    warn(
+        fmt::format("the table knows {} frames without a picture, before or behind all pictures: {}; is the "
+                    "recording still being written?",
+                    result.without_picture.count, result.without_picture.text()));
+  if (!result.origin.isZero())
+    warn(
+        fmt::format("the cloud's coordinates count from the origin {} {} {} mm, so that 32-bit numbers carry "
+                    "them; the file's header and its .run.yaml name it",
+                    result.origin.x(), result.origin.y(), result.origin.z()));
   if (!summary.without_position.empty())
     warn(fmt::format("{} frames have no position and are left out: {}", summary.without_position.count,
                      summary.without_position.text()));
@@ -155,7 +167,7 @@ int run_reconstruct(const ReconstructArguments& arguments) {
   const InterruptWatch interrupt;
   const ReconstructResult result = reconstruct(job, progress_line(arguments.common.quiet), interrupt.token());
   warn_of_skipped(result, job.cloud.string());
-  warn_of_gaps(result.summary);
+  warn_of_gaps(result);
   if (!result.usable()) return not_usable(result.not_usable);
   say(arguments.common,
       fmt::format("{} frames, {} points in {:.2f} s ({:.1f} frames/s) -> {}", result.summary.frames,

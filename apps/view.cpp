@@ -13,6 +13,7 @@
 #include "io/rig_file.h"
 #include "io/session_file.h"
 #include "pipeline/measure_input.h"
+#include "reconstruct/cloud_header.h"
 #include "report/cloud_deviation.h"
 #include "report/cloud_view.h"
 
@@ -46,7 +47,8 @@ int run_view(const ViewArguments& arguments) {
   FrameDeviation deviation;
   if (!arguments.nominal.empty()) {
     reference = read_reference(arguments.nominal, arguments.kind);
-    deviation = deviation_from(*reference, rig ? rig->motion : Motion{});
+    deviation =
+        deviation_from(*reference, rig ? rig->motion : Motion{}, inspect_cloud(arguments.cloud).origin);
   }
   CloudView view = view_of_cloud(arguments.cloud, deviation, arguments.max_points);
   if (view.total == 0) return not_usable(arguments.cloud + " has no points (nothing is written)");

@@ -56,6 +56,8 @@ std::string sidecar(const fs::path& path, const HeightMap& map, const Quantised&
                   name("_intensity" + path.extension().string()), name("_sigma" + path.extension().string()));
   text += fmt::format("height: {}\n",
                       map.rotary ? "radius about the rig's axis" : "z of the rig frame at travel 0");
+  if (map.height_origin != 0)
+    text += fmt::format("height_origin: {:.17g}   # is added to every height\n", map.height_origin);
   text += fmt::format(
       "# of the middle of pixel i: first + i * step\ncolumns: {{count: {}, first: {:.17g}, step: {:.17g}, "
       "unit: {}, is: {}}}\n",

@@ -26,13 +26,14 @@ struct Part {
   fs::path file;
   std::uint64_t content_at = 0;
   std::int64_t num_points = 0;
+  CloudOrigin origin = CloudOrigin::Zero();
   std::optional<std::pair<std::int64_t, std::int64_t>> frames;  ///< first and last; none: no points, or .xyz
 };
 
 Part cloud_part(const fs::path& file, CloudFormat format) {
-  if (format == CloudFormat::kXyz) return {file, 0, 0, std::nullopt};
+  if (format == CloudFormat::kXyz) return {file, 0, 0, CloudOrigin::Zero(), std::nullopt};
   const CloudPart cloud = inspect_cloud(file);
-  Part part{file, cloud.points_at, cloud.num_points, std::nullopt};
+  Part part{file, cloud.points_at, cloud.num_points, cloud.origin, std::nullopt};
   if (cloud.num_points > 0) part.frames = {cloud.first_frame, cloud.last_frame};
   return part;
 }
@@ -64,7 +65,7 @@ Part profiles_part(const fs::path& file) {
   std::string head, row;
   if (!std::getline(in, head) || head + "\n" != kProfilesHeader)
     throw Error(file.string(), "is no profiles.csv of lightstripe", "give the tables of the parts");
-  Part part{file, kProfilesHeader.size(), 0, std::nullopt};
+  Part part{file, kProfilesHeader.size(), 0, CloudOrigin::Zero(), std::nullopt};
   if (!std::getline(in, row)) return part;
   part.frames = {frame_of_row(row, file), 0};
   part.frames->second = frame_of_row(last_row(in, file), file);
@@ -89,6 +90,13 @@ void put_in_order(std::vector<Part>& parts) {
                               filled[i - 1].frames->first, filled[i - 1].frames->second),
                   "give parts that do not overlap");
   parts = filled;
+}
+
+void refuse_other_origins(const std::vector<Part>& parts) {
+  for (const Part& part : parts)
+    if (part.origin != parts.front().origin)
+      throw Error(part.file.string(), "has another origin than " + parts.front().file.string(),
+                  "reconstruct the parts from one recording, whose travel table or poses decide it");
 }
 
 void copy_content(const Part& part, ResumableFile& out) {
@@ -118,13 +126,14 @@ MergeResult merge(const MergeJob& job) {
   const CloudFormat format = table ? CloudFormat::kPly : cloud_format(job.output, job.output.string());
   std::vector<Part> parts = read_parts(job, table, format);
   put_in_order(parts);
+  refuse_other_origins(parts);
   MergeResult result;
   for (const Part& part : parts) result.num_points += part.num_points;
   if (result.num_points > kMaxCloudPoints)
     throw Error(job.output.string(), fmt::format("the cloud would exceed {} points", kMaxCloudPoints),
                 "merge fewer parts");
-  ResumableFile out(job.output,
-                    table ? std::string(kProfilesHeader) : cloud_header(format, result.num_points));
+  ResumableFile out(job.output, table ? std::string(kProfilesHeader)
+                                      : cloud_header(format, result.num_points, parts.front().origin));
   try {
     for (const Part& part : parts) copy_content(part, out);
     out.commit();

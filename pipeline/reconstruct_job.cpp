@@ -40,7 +40,7 @@ Run open_run(const ReconstructJob& job) {
   return {job, std::move(recording), std::max(from, first), std::min(to, end)};
 }
 
-/// Of everything that the files' bytes depend on, the pictures' content excepted.
+/// Of everything that the files' bytes depend on; the pictures by name, size and time of their last change.
 std::string fingerprint_of(const Run& run) {
   const ReconstructJob& job = run.job;
   std::uint64_t hash = fnv1a(LIGHTSTRIPE_VERSION);
@@ -53,24 +53,24 @@ std::string fingerprint_of(const Run& run) {
                hash);
   for (std::int64_t frame = run.first_frame; frame < run.end_frame; ++frame)
     for (std::size_t s = 0; s < job.rig.sensors.size(); ++s)
-      hash = fnv1a(run.recording.picture_name(frame, static_cast<int>(s)) + "/", hash);
+      hash = fnv1a(run.recording.picture_identity(frame, static_cast<int>(s)) + "/", hash);
   return fmt::format("{:016x}", hash);
 }
 
 /// Tells the points that an earlier run has left in its cloud.
-void tell_earlier_points(const fs::path& cloud, std::int64_t num_points,
+void tell_earlier_points(const fs::path& cloud, const Eigen::Vector3d& origin, std::int64_t num_points,
                          const std::function<void(const Profile&)>& tell) {
   const CloudFormat format = cloud_format(cloud, cloud.string());
   if (format == CloudFormat::kXyz)
     throw Error(cloud.string(), "a .xyz file cannot be gone on with where a picture is drawn",
                 "leave --preview out");
   std::ifstream file(cloud, std::ios::binary);
-  file.seekg(static_cast<std::streamoff>(cloud_header(format, 0).size()));
+  file.seekg(static_cast<std::streamoff>(cloud_header(format, 0, origin).size()));
   Profile one;
   one.points.resize(1);
   CloudPoint point;
   for (std::int64_t i = 0; i < num_points && file.read(reinterpret_cast<char*>(&point), sizeof(point)); ++i) {
-    one.points[0].position = {point.x, point.y, point.z};
+    one.points[0].position = origin + Eigen::Vector3d(point.x, point.y, point.z);
     tell(one);
   }
 }
@@ -125,29 +125,45 @@ int brightest_level(const Run& run) {
   return brightest;
 }
 
-std::string in_quotes(const std::string& text) {
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') out.push_back('\\');
-    out.push_back(c);
-  }
-  return out + '"';
+/// The record's own part, in the order of the file.
+struct RecordFields {
+  std::string frames;
+  bool complete = true;
+  std::optional<std::string> without_position, without_picture, travel_interpolated;
+  std::optional<std::vector<double>> origin;
+  std::optional<std::vector<std::string>> warnings;
+  std::optional<std::int64_t> pictures_skipped;
+};
+template <class V>
+void visit_fields(V&& v, RecordFields& o) {
+  v("frames", o.frames), v("complete", o.complete);
+  v("without_position", o.without_position), v("without_picture", o.without_picture);
+  v("travel_interpolated", o.travel_interpolated), v("origin", o.origin), v("warnings", o.warnings);
+  v("pictures_skipped", o.pictures_skipped);
+}
+
+std::optional<std::string> ranges_text(const FrameRanges& ranges) {
+  constexpr std::size_t kMostRuns = 1000;
+  return ranges.empty() ? std::nullopt : std::optional(ranges.text(kMostRuns));
 }
 
 void write_record(const Run& run, const ReconstructResult& result, const fs::path& cloud) {
-  std::string text =
-      fmt::format("frames: \"{}:{}\"\ncomplete: {}\n", result.first_frame,
-                  result.summary.stopped ? result.end_frame : run.end_frame, !result.summary.stopped);
-  if (!result.summary.without_position.empty())
-    text += fmt::format("without_position: \"{}\"\n", result.summary.without_position.text(1000));
-  if (!result.summary.interpolated.empty())
-    text += fmt::format("travel_interpolated: \"{}\"\n", result.summary.interpolated.text(1000));
-  if (result.summary.pictures_skipped > 0)
-    text += fmt::format("pictures_skipped: {}\nskipped:\n", result.summary.pictures_skipped);
+  RecordFields fields;
+  fields.frames =
+      fmt::format("{}:{}", result.first_frame, result.summary.stopped ? result.end_frame : run.end_frame);
+  fields.complete = !result.summary.stopped;
+  fields.without_position = ranges_text(result.summary.without_position);
+  fields.without_picture = ranges_text(result.without_picture);
+  fields.travel_interpolated = ranges_text(result.summary.interpolated);
+  if (!result.origin.isZero()) fields.origin = {result.origin.x(), result.origin.y(), result.origin.z()};
+  if (!result.warnings.empty()) fields.warnings = result.warnings;
+  if (result.summary.pictures_skipped > 0) fields.pictures_skipped = result.summary.pictures_skipped;
+  std::string text = dump_yaml(fields);
+  if (result.summary.pictures_skipped > 0) text += "skipped:\n";
   for (const NamedSkip& skip : result.skipped)
     text += fmt::format("  - {{frame: {}, sensor: {}, reason: {}}}\n", skip.frame,
-                        run.job.rig.sensors[static_cast<std::size_t>(skip.picture.sensor)].name,
-                        in_quotes(skip.picture.reason));
+                        yaml_text(run.job.rig.sensors[static_cast<std::size_t>(skip.picture.sensor)].name),
+                        yaml_text(skip.picture.reason));
   std::vector<fs::path> inputs{run.job.scan_file, run.job.rig_file};
   if (run.recording.table()) inputs.push_back(*run.recording.table());
   write_run_record(cloud, "reconstruct", inputs,
@@ -171,6 +187,22 @@ void close_output(const Run& run, ScanOutput& output, ReconstructResult& result)
   output.forget_journal();
 }
 
+/// With `strict`: what would be left out is an error before anything is done.
+void refuse_vanished_frames(const Run& run) {
+  if (!run.job.strict) return;
+  const Recording& recording = run.recording;
+  const std::string table = recording.table() ? recording.table()->string() : run.job.scan_file.string();
+  if (!recording.without_picture().empty())
+    throw Error(table, "knows frames that have no picture: " + recording.without_picture().text(),
+                "wait for the recording's end, or take these rows out");
+  FrameRanges lost;
+  for (std::int64_t frame = run.first_frame; frame < run.end_frame; ++frame)
+    if (recording.recorded(frame) && !recording.position(frame)) lost.add(frame);
+  if (!lost.empty())
+    throw Error(table, "says no position of the frames " + lost.text(),
+                "complete it, or leave these pictures out");
+}
+
 void refuse_unusable_pictures(const ReconstructJob& job, const ReconstructResult& result) {
   if (result.summary.pictures == 0 && !result.summary.stopped && !result.skipped.empty())
     throw Error(job.scan_file.string(),
@@ -186,7 +218,7 @@ std::string why_empty(const ReconstructResult& result) {
   const ScanSummary& summary = result.summary;
   if (summary.frames == 0)
     return "none of the frames has a position (nothing is written); number the travel table's frames as the "
-           "pictures";
+           "pictures, or from 0 in their order";
   std::string text =
       fmt::format("no stripe was found in any of the {} frames (nothing is written); ", summary.frames);
   constexpr int kDark = 60;
@@ -243,11 +275,15 @@ ReconstructResult reconstruct(const ReconstructJob& job, const ProgressCallback&
                               const std::stop_token& stop) {
   const JobThreads threads(job.threads);
   const Run run = open_run(job);
-  ScanOutput output({job.cloud, job.profiles, run.first_frame, fingerprint_of(run), job.resume,
+  refuse_vanished_frames(run);
+  const Eigen::Vector3d origin = cloud_format(job.cloud, job.cloud.string()) == CloudFormat::kXyz
+                                     ? Eigen::Vector3d::Zero().eval()
+                                     : run.recording.cloud_origin();
+  ScanOutput output({job.cloud, job.profiles, run.first_frame, origin, fingerprint_of(run), job.resume,
                      std::chrono::milliseconds(static_cast<std::int64_t>(1000 * job.checkpoint_s))});
   const std::int64_t points_before = output.tally().counts.points;
   if (job.on_profile && points_before > 0)
-    tell_earlier_points(output.was_complete() ? job.cloud : output.partial_cloud(), points_before,
+    tell_earlier_points(output.was_complete() ? job.cloud : output.partial_cloud(), origin, points_before,
                         job.on_profile);
   ReconstructResult result;
   scan(run, output, progress, stop, result);
@@ -255,6 +291,9 @@ ReconstructResult reconstruct(const ReconstructJob& job, const ProgressCallback&
   result.end_frame = result.summary.stopped ? output.tally().next_frame : run.end_frame;
   result.skipped = output.tally().skipped;
   result.duplicate_pictures = run.recording.duplicate_pictures();
+  result.warnings = run.recording.warnings();
+  result.without_picture = run.recording.without_picture();
+  result.origin = origin;
   refuse_unusable_pictures(job, result);
   if (result.summary.points == 0) result.brightest = brightest_level(run);
   close_output(run, output, result);

@@ -5,9 +5,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/error.h"
 #include "io/tables.h"
+#include "reconstruct/encoder_check.h"
 
 namespace lightstripe {
 namespace {
@@ -30,6 +32,7 @@ Recording::Recording(const Scan& scan, const std::string& scan_file, const Rig& 
   for (const auto& source : sources_) sources.push_back(source.get());
   map_ = map_frames(sources, frames_of_table(), scan_file + ": frames");
   refuse_other_size(scan_file);
+  look_for_losses();
 }
 
 void Recording::open_sensors(const Scan& scan, const std::string& scan_file) {
@@ -54,7 +57,10 @@ void Recording::read_positions(const Scan& scan, const std::string& scan_file) {
     table_ = scan.folder / scan.travel_file;
     const auto rows =
         read_frame_travel(*table_, rig_.motion.type == MotionType::kRotary ? "angle_deg" : "travel_mm");
-    readings_.assign(rows.begin(), rows.end());
+    CheckedReadings checked = check_encoder({rows.begin(), rows.end()}, rig_.motion.type);
+    readings_ = std::move(checked.readings);
+    for (const std::string& warning : checked.warnings)
+      warnings_.push_back(fmt::format("{}: {}", table_->string(), warning));
   }
 }
 
@@ -63,6 +69,68 @@ std::vector<std::int64_t> Recording::frames_of_table() const {
   for (const auto& [frame, travel] : readings_) frames.push_back(frame);
   for (const auto& [frame, pose] : poses_) frames.push_back(frame);
   return frames;
+}
+
+std::int64_t Recording::key_of(std::int64_t frame) const {
+  if (map_.stamps.empty() || frame < map_.first || frame >= map_.end) return frame;
+  return map_.stamps[static_cast<std::size_t>(frame - map_.first)];
+}
+
+void Recording::look_for_losses() {
+  for (const auto& source : sources_)
+    if (source && !source->doubt().empty()) warnings_.push_back(source->name(0) + ": " + source->doubt());
+  std::string starts;
+  for (std::size_t s = 0; s < sources_.size(); ++s)
+    if (sources_[s])
+      starts += fmt::format("{}{}'s with {}", starts.empty() ? "" : ", ", rig_.sensors[s].name,
+                            sources_[s]->name(0));
+  if (map_.paired_by_order)
+    warnings_.push_back(fmt::format(
+        "the sensors' pictures are numbered apart ({}) and are paired by their order: were all cameras "
+        "triggered "
+        "together from the first picture on? If not, rename the files so that equal numbers belong together",
+        starts));
+  if (!map_.stamps.empty())
+    warnings_.push_back(
+        "the numbers in the pictures' names are looked up in the table as time stamps; frames are "
+        "counted from 0 in their order");
+  if (travel_ == TravelSource::kStep && map_.number_step > 1)
+    warnings_.push_back(
+        fmt::format("the pictures' numbers go in steps of {}: each picture is taken as one step of {:g}; if "
+                    "pictures were "
+                    "taken out of the folder, multiply the step",
+                    map_.number_step, step_));
+  if (!map_.stamps.empty()) return;
+  for (const std::int64_t frame : frames_of_table())
+    if (frame < map_.first || frame >= map_.end) without_picture_.add(frame);
+}
+
+/// Beyond kCarried mm a 32-bit number errs by more than 0.001 mm. The origin is the middle of all travel or
+/// poses, to whole metres, where they lie far from 0 and not about it; the same for every part of a
+/// recording.
+Eigen::Vector3d Recording::cloud_origin() const {
+  constexpr double kCarried = 16384, kRound = 1000;
+  std::vector<Eigen::Vector3d> places;
+  const bool linear = rig_.motion.type != MotionType::kRotary;
+  const auto add_travel = [&](double travel) {
+    places.push_back(result_from_rig(rig_.motion, {travel, std::nullopt, false}).translation);
+  };
+  if (!readings_.empty() && linear)
+    for (const auto& [frame, travel] : readings_) add_travel(travel);
+  if (travel_ == TravelSource::kStep && linear)
+    for (const std::int64_t frame : {map_.first, map_.end - 1})
+      add_travel(step_ * static_cast<double>(frame));
+  for (const auto& [frame, pose] : poses_) places.push_back((pose * posed_from_rig_).translation);
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();
+  if (places.empty()) return origin;
+  Eigen::Vector3d low = places.front(), high = places.front();
+  for (const Eigen::Vector3d& place : places) low = low.cwiseMin(place), high = high.cwiseMax(place);
+  for (int i = 0; i < 3; ++i) {
+    const double middle = (low[i] + high[i]) / 2, half = (high[i] - low[i]) / 2;
+    if (std::max(std::abs(low[i]), std::abs(high[i])) > kCarried && std::abs(middle) > 2 * half)
+      origin[i] = std::round(middle / kRound) * kRound;
+  }
+  return origin;
 }
 
 /// A single odd picture is skipped later; a recording of another camera should not take hours to be found
@@ -108,12 +176,12 @@ std::optional<GreyImage> Recording::read(std::int64_t frame, int sensor) const {
 std::optional<FramePosition> Recording::position(std::int64_t frame) const {
   switch (travel_) {
     case TravelSource::kPoses: {
-      const auto pose = poses_.find(frame);
+      const auto pose = poses_.find(key_of(frame));
       if (pose == poses_.end()) return std::nullopt;
       return FramePosition{0.0, pose->second * posed_from_rig_, false};
     }
     case TravelSource::kFile:
-      return position_at(readings_, rig_.motion.type, frame);
+      return position_at(readings_, rig_.motion.type, key_of(frame));
     case TravelSource::kStep:
       return FramePosition{step_ * static_cast<double>(frame), std::nullopt, false};
     case TravelSource::kNone:
@@ -125,9 +193,9 @@ std::optional<FramePosition> Recording::position(std::int64_t frame) const {
 bool Recording::recorded(std::int64_t frame) const {
   for (std::size_t s = 0; s < sources_.size(); ++s)
     if (sources_[s] && map_.index_of(s, frame) >= 0) return true;
-  if (travel_ == TravelSource::kPoses) return poses_.count(frame) > 0;
+  if (travel_ == TravelSource::kPoses) return poses_.count(key_of(frame)) > 0;
   if (travel_ != TravelSource::kFile) return true;
-  const auto position = position_at(readings_, rig_.motion.type, frame);
+  const auto position = position_at(readings_, rig_.motion.type, key_of(frame));
   return position && !position->interpolated;
 }
 
@@ -135,6 +203,18 @@ std::string Recording::picture_name(std::int64_t frame, int sensor) const {
   const auto s = static_cast<std::size_t>(sensor);
   const std::int32_t index = sources_[s] ? map_.index_of(s, frame) : -1;
   return index < 0 ? "" : sources_[s]->name(index);
+}
+
+std::string Recording::picture_identity(std::int64_t frame, int sensor) const {
+  const std::string name = picture_name(frame, sensor);
+  if (name.empty()) return name;
+  const auto s = static_cast<std::size_t>(sensor);
+  const std::filesystem::path file = sources_[s]->file(map_.index_of(s, frame));
+  std::error_code error;
+  const auto size = std::filesystem::file_size(file, error);
+  if (error) return name;
+  const auto changed = std::filesystem::last_write_time(file, error);
+  return fmt::format("{} {} {}", name, size, error ? 0 : changed.time_since_epoch().count());
 }
 
 }  // namespace lightstripe

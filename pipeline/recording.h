@@ -15,6 +15,7 @@
 #include "io/frame_numbers.h"
 #include "io/images.h"
 #include "io/session_file.h"
+#include "reconstruct/frame_ranges.h"
 #include "reconstruct/travel.h"
 
 namespace lightstripe {
@@ -35,14 +36,27 @@ class Recording {
   bool recorded(std::int64_t frame) const;
   /// Name of the picture, empty where there is none.
   std::string picture_name(std::int64_t frame, int sensor) const;
+  /// Its name, size and time of last change (of the file it lies in): what tells it from one that was
+  /// recorded anew under the same name. Empty where there is none.
+  std::string picture_identity(std::int64_t frame, int sensor) const;
   /// travel.csv or poses.csv, if the scan has one.
   const std::optional<std::filesystem::path>& table() const { return table_; }
+  /// What the user should know of the recording before he trusts the result: an encoder that jumps, counters
+  /// that start apart, a video that is cut short.
+  const std::vector<std::string>& warnings() const { return warnings_; }
+  /// Frames of the table before the first and behind the last picture.
+  const FrameRanges& without_picture() const { return without_picture_; }
+  /// Where the cloud's coordinates count from, so that 32-bit numbers carry 0.001 mm; 0 where they do anyway.
+  Eigen::Vector3d cloud_origin() const;
 
  private:
   void open_sensors(const Scan& scan, const std::string& scan_file);
   void read_positions(const Scan& scan, const std::string& scan_file);
   void refuse_other_size(const std::string& scan_file) const;
   std::vector<std::int64_t> frames_of_table() const;
+  /// What the table calls this frame.
+  std::int64_t key_of(std::int64_t frame) const;
+  void look_for_losses();
 
   const Rig& rig_;
   std::vector<std::unique_ptr<FrameSource>> sources_;  ///< by the rig's sensors; null: not in the scan
@@ -52,6 +66,8 @@ class Recording {
   std::optional<std::filesystem::path> table_;
   TravelReadings readings_;
   std::map<std::int64_t, Rigid3> poses_;
+  std::vector<std::string> warnings_;
+  FrameRanges without_picture_;
   Rigid3 posed_from_rig_;  ///< the frame that the poses are of
 };
 

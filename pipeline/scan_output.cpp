@@ -63,7 +63,7 @@ fs::path ScanOutput::journal_path() const {
 void ScanOutput::begin() {
   tally_.next_frame = options_.first_frame;
   if (::ftruncate(journal_, 0) != 0) cannot_write(journal_path(), errno);
-  cloud_.emplace(options_.cloud, cloud_header(format_, 0));
+  cloud_.emplace(options_.cloud, cloud_header(format_, 0, options_.origin));
   if (!options_.profiles.empty()) profiles_.emplace(options_.profiles, kProfilesHeader);
   put(journal_, journal_path(), journal_head(options_.fingerprint));
 }
@@ -84,7 +84,7 @@ bool ScanOutput::go_on() {
     rename_what_is_left();
     return true;
   }
-  cloud_.emplace(options_.cloud, cloud_header(format_, 0), state->cloud);
+  cloud_.emplace(options_.cloud, cloud_header(format_, 0, options_.origin), state->cloud);
   if (!options_.profiles.empty()) profiles_.emplace(options_.profiles, kProfilesHeader, state->profiles);
   return true;
 }
@@ -99,7 +99,7 @@ void ScanOutput::rename_what_is_left() {
 
 void ScanOutput::encode(ScannedFrame& frame) const {
   frame.encoded.resize(2);
-  append_cloud_points(frame.encoded[0], format_, frame.profile);
+  append_cloud_points(frame.encoded[0], format_, frame.profile, options_.origin);
   if (!options_.profiles.empty()) append_profile(frame.encoded[1], frame.profile);
 }
 
@@ -127,7 +127,7 @@ void ScanOutput::write_entry() {
 }
 
 void ScanOutput::keep() {
-  cloud_->replace_head(cloud_header(format_, tally_.counts.points));
+  cloud_->replace_head(cloud_header(format_, tally_.counts.points, options_.origin));
   write_entry();
   over_ = true;
 }
@@ -135,7 +135,7 @@ void ScanOutput::keep() {
 void ScanOutput::commit() {
   over_ = true;
   if (was_complete_) return;
-  cloud_->replace_head(cloud_header(format_, tally_.counts.points));
+  cloud_->replace_head(cloud_header(format_, tally_.counts.points, options_.origin));
   write_entry();
   put(journal_, journal_path(), kJournalComplete);
   cloud_->commit();

@@ -23,6 +23,7 @@ struct ScanOutputOptions {
   std::filesystem::path cloud;
   std::filesystem::path profiles;  ///< empty: none
   std::int64_t first_frame = 0;
+  CloudOrigin origin = CloudOrigin::Zero();
   std::string fingerprint;  ///< of everything that the bytes depend on
   bool resume = false;
   std::chrono::milliseconds checkpoint{1000};

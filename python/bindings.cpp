@@ -22,6 +22,7 @@
 #include "io/images.h"
 #include "io/rig_file.h"
 #include "io/tables.h"
+#include "jobs.h"
 #include "options.h"
 #include "reconstruct/cloud.h"
 #include "reconstruct/triangulate.h"
@@ -32,7 +33,8 @@ namespace {
 namespace fs = std::filesystem;
 
 ExtractionResult extract(const py::array& image, const py::kwargs& given) {
-  const ExtractionOptions options = extraction_options(given);
+  ExtractionOptions options;
+  apply_options(options, given);
   const auto run = [&options](auto view) {
     const py::gil_scoped_release others_may_run;
     return extract_stripes(view, options);
@@ -246,6 +248,7 @@ PYBIND11_MODULE(_core, module) {
   add_rig(module);
   add_extraction(module);
   add_profiles(module);
+  add_jobs(module);
 }
 
 }  // namespace lightstripe::python

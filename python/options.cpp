@@ -3,8 +3,7 @@
 #include "options.h"
 
 #include <string>
-
-#include "io/yaml_binding.h"
+#include <vector>
 
 namespace lightstripe::python {
 namespace {
@@ -23,23 +22,23 @@ std::string text_of(py::handle value, const std::string& name) {
   return py::str(value).cast<std::string>();
 }
 
-void apply(const py::dict& given, const std::string& prefix, ExtractionOptions& options) {
+void collect(const py::dict& given, const std::string& prefix, std::vector<OptionText>& texts) {
   for (const auto& [key, value] : given) {
     const std::string name = prefix + py::str(key).cast<std::string>();
     if (py::isinstance<py::dict>(value)) {
-      apply(py::reinterpret_borrow<py::dict>(value), name + ".", options);
+      collect(py::reinterpret_borrow<py::dict>(value), name + ".", texts);
     } else if (!value.is_none()) {
-      set_field(options, name, text_of(value, name));
+      texts.push_back({name, text_of(value, name)});
     }
   }
 }
 
 }  // namespace
 
-ExtractionOptions extraction_options(const py::dict& given) {
-  ExtractionOptions options;
-  apply(given, "", options);
-  return options;
+std::vector<OptionText> option_texts(const py::dict& given) {
+  std::vector<OptionText> texts;
+  collect(given, "", texts);
+  return texts;
 }
 
 }  // namespace lightstripe::python

@@ -1,16 +1,31 @@
 // SPDX-FileCopyrightText: 2026 The lightstripe authors
 // SPDX-License-Identifier: Apache-2.0
-// Keyword arguments of Python to the options of the extraction.
+// Options given as Python values -> the options structs, through the field lists that read the files as well.
 #pragma once
 
 #include <pybind11/pybind11.h>
 
-#include "extraction/extract_stripes.h"
+#include <string>
+#include <vector>
+
+#include "io/yaml_binding.h"
 
 namespace lightstripe::python {
 
-/// stripe_width=6, method="steger", lines={"min_length": 20}: the names and texts of the option files. None
-/// keeps the default. An Error names an option that does not exist or whose value does not fit.
-ExtractionOptions extraction_options(const pybind11::dict& given);
+/// An option as the files know it: a dotted key and its text.
+struct OptionText {
+  std::string key, text;
+};
+
+/// {"roi": (0, 0, 100, 100), "lines": {"min_length": 20}} -> roi 0,0,100,100 and lines.min_length 20. None
+/// keeps the default and is left out; None inside a list is a TypeError.
+std::vector<OptionText> option_texts(const pybind11::dict& given);
+
+/// Sets fields of an options struct. An Error names an option that does not exist or whose value does not
+/// fit.
+template <HasFields T>
+void apply_options(T& options, const pybind11::dict& given, const std::string& origin = "option") {
+  for (const OptionText& option : option_texts(given)) set_field(options, option.key, option.text, origin);
+}
 
 }  // namespace lightstripe::python

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <bit>
+#include <cmath>
 #include <fstream>
 #include <limits>
 
@@ -17,11 +18,17 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "clouds are written as they lie in memory");
 static_assert(sizeof(CloudPoint) == 32, "no padding between the fields of a file");
 
-CloudPoint cloud_point(const Profile& profile, const ProfilePoint& p) {
+CloudPoint cloud_point(const Profile& profile, const ProfilePoint& p, const CloudOrigin& origin) {
+  const Eigen::Vector3d place = p.position - origin;
+  constexpr double kLargest = std::numeric_limits<float>::max();
+  if (!(place.cwiseAbs().maxCoeff() < kLargest) || !(std::abs(p.sigma_mm) < kLargest))
+    throw Error(fmt::format("frame {}", profile.frame),
+                "has a point that is not finite, or farther than 32-bit numbers reach",
+                "check the rig file and the travel table");
   CloudPoint out;
-  out.x = static_cast<float>(p.position.x());
-  out.y = static_cast<float>(p.position.y());
-  out.z = static_cast<float>(p.position.z());
+  out.x = static_cast<float>(place.x());
+  out.y = static_cast<float>(place.y());
+  out.z = static_cast<float>(place.z());
   out.intensity = p.intensity;
   out.frame = static_cast<std::int32_t>(profile.frame);
   out.sensor = p.sensor;
@@ -30,18 +37,31 @@ CloudPoint cloud_point(const Profile& profile, const ProfilePoint& p) {
   return out;
 }
 
+/// The shortest text of the 32-bit number, or with all digits that count where 32 bits do not carry 0.0005
+/// mm.
+void append_coordinate(std::string& text, double value, char behind) {
+  constexpr double kCarried = 8192;
+  if (std::abs(value) < kCarried)
+    fmt::format_to(std::back_inserter(text), "{}{}", static_cast<float>(value), behind);
+  else
+    fmt::format_to(std::back_inserter(text), "{:.5f}{}", value, behind);
+}
+
 }  // namespace
 
-void append_cloud_points(std::string& bytes, CloudFormat format, const Profile& profile) {
+void append_cloud_points(std::string& bytes, CloudFormat format, const Profile& profile,
+                         const CloudOrigin& origin) {
   LIGHTSTRIPE_CHECK(profile.frame >= 0 && profile.frame <= std::numeric_limits<std::int32_t>::max(),
                     "a cloud's frame is a 32-bit number");
   for (const ProfilePoint& point : profile.points) {
-    const CloudPoint p = cloud_point(profile, point);
-    if (format == CloudFormat::kXyz)
-      fmt::format_to(std::back_inserter(bytes), "{} {} {}\n", p.x, p.y,
-                     p.z);  // the shortest text with the same bits
-    else
+    const CloudPoint p = cloud_point(profile, point, origin);
+    if (format == CloudFormat::kXyz) {
+      append_coordinate(bytes, point.position.x(), ' ');
+      append_coordinate(bytes, point.position.y(), ' ');
+      append_coordinate(bytes, point.position.z(), '\n');
+    } else {
       bytes.append(reinterpret_cast<const char*>(&p), sizeof(p));
+    }
   }
 }
 

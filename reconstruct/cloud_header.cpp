@@ -20,24 +20,36 @@ std::string slack(std::int64_t num_points, std::size_t occurrences) {
   return std::string(occurrences * (kMaxDigits - fmt::format("{}", num_points).size()), ' ');
 }
 
-/// By hand: PCL's own header appends a camera or a range grid with some twenty properties and an empty face
-/// element, which docs/interface.md does not have.
-std::string ply_header(std::int64_t num_points) {
-  return fmt::format(
-      "ply\nformat binary_little_endian 1.0\ncomment lightstripe, mm{}\nelement vertex {}\n"
-      "property float x\nproperty float y\nproperty float z\nproperty float intensity\n"
-      "property int frame\nproperty int sensor\nproperty int line\nproperty float sigma\nend_header\n",
-      slack(num_points, 1), num_points);
+/// One line that people and programs read; CloudCompare's "global shift" is the same with other signs.
+std::string origin_comment(const CloudOrigin& origin) {
+  if (origin.isZero()) return "";
+  return fmt::format("comment origin {} {} {} (add it to x y z; as CloudCompare's global shift: {} {} {})\n",
+                     origin.x(), origin.y(), origin.z(), -origin.x(), -origin.y(), -origin.z());
 }
 
-std::string pcd_header(std::int64_t num_points) {
+/// By hand: PCL's own header appends a camera or a range grid with some twenty properties and an empty face
+/// element, which docs/interface.md does not have.
+std::string ply_header(std::int64_t num_points, const CloudOrigin& origin) {
+  return fmt::format(
+      "ply\nformat binary_little_endian 1.0\ncomment lightstripe, mm{}\n{}element vertex {}\n"
+      "property float x\nproperty float y\nproperty float z\nproperty float intensity\n"
+      "property int frame\nproperty int sensor\nproperty int line\nproperty float sigma\nend_header\n",
+      slack(num_points, 1), origin_comment(origin), num_points);
+}
+
+std::string pcd_header(std::int64_t num_points, const CloudOrigin& origin) {
   pcl::PCLPointCloud2 cloud;
   cloud.fields = pcl::getFields<CloudPoint>();
   cloud.width = static_cast<std::uint32_t>(num_points);
   cloud.height = 1;
   cloud.point_step = sizeof(CloudPoint);
-  const std::string header =
+  std::string header =
       pcl::PCDWriter().generateHeaderBinary(cloud, Eigen::Vector4f::Zero(), Eigen::Quaternionf::Identity());
+  if (!origin.isZero()) {  // by hand: PCL has 32-bit numbers there
+    const std::size_t at = header.find("VIEWPOINT "), end = header.find('\n', at);
+    header.replace(at, end - at,
+                   fmt::format("VIEWPOINT {} {} {} 1 0 0 0", origin.x(), origin.y(), origin.z()));
+  }
   return header +
          fmt::format("# lightstripe, mm{}\nDATA binary\n", slack(num_points, 2));  // WIDTH and POINTS
 }
@@ -55,10 +67,10 @@ CloudFormat cloud_format(const std::filesystem::path& path, const std::string& n
               "name it .ply, .pcd or .xyz");
 }
 
-std::string cloud_header(CloudFormat format, std::int64_t num_points) {
+std::string cloud_header(CloudFormat format, std::int64_t num_points, const CloudOrigin& origin) {
   LIGHTSTRIPE_CHECK(num_points >= 0 && num_points <= kMaxCloudPoints, "a cloud's number of points");
-  if (format == CloudFormat::kPly) return ply_header(num_points);
-  if (format == CloudFormat::kPcd) return pcd_header(num_points);
+  if (format == CloudFormat::kPly) return ply_header(num_points, origin);
+  if (format == CloudFormat::kPcd) return pcd_header(num_points, origin);
   return {};
 }
 

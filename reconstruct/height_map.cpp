@@ -30,7 +30,8 @@ struct MapPoint {
 
 class MapFrame {
  public:
-  explicit MapFrame(const Motion& motion) : motion_(motion), rotary_(motion.type == MotionType::kRotary) {
+  MapFrame(const Motion& motion, const Eigen::Vector3d& origin)
+      : motion_(motion), origin_(origin), rotary_(motion.type == MotionType::kRotary) {
     const Eigen::Vector3d& axis = motion.axis_direction;
     zero_ = Eigen::Vector3d::UnitZ() - axis.z() * axis;
     if (zero_.norm() < 1e-6) zero_ = Eigen::Vector3d::UnitX() - axis.x() * axis;
@@ -39,8 +40,8 @@ class MapFrame {
   }
   bool rotary() const { return rotary_; }
   MapPoint place(const CloudPoint& p) const {
-    if (!rotary_) return {p.x, p.y, p.z};
-    const Eigen::Vector3d arm = Eigen::Vector3d(p.x, p.y, p.z) - motion_.axis_point;
+    if (!rotary_) return {p.x + origin_.x(), p.y + origin_.y(), p.z};
+    const Eigen::Vector3d arm = Eigen::Vector3d(p.x, p.y, p.z) + origin_ - motion_.axis_point;
     const double u = arm.dot(motion_.axis_direction), a = arm.dot(zero_), b = arm.dot(quarter_);
     const double angle = std::atan2(b, a) * 180 / std::numbers::pi;
     return {angle < 0 ? angle + 360 : angle, u, std::hypot(a, b)};
@@ -48,6 +49,7 @@ class MapFrame {
 
  private:
   const Motion& motion_;
+  Eigen::Vector3d origin_;
   bool rotary_;
   Eigen::Vector3d zero_, quarter_;
 };
@@ -235,16 +237,17 @@ RowSamples sample_stripes(const HeightMap& map, const MapFrame& frame_of_map,
 HeightMap make_height_map(const std::filesystem::path& cloud, const Motion& motion,
                           const HeightMapOptions& options) {
   LIGHTSTRIPE_CHECK(options.raster_mm > 0, "a raster has a positive step");
-  const MapFrame frame_of_map(motion);
+  CloudReader reader(cloud);
+  const MapFrame frame_of_map(motion, reader.origin());
   const CloudSpacing spacing = cloud_spacing(cloud);
   const Extent extent = extent_of(cloud, frame_of_map);
   if (extent.column_high < extent.column_low)
     throw Error(cloud.string(), "has no points", "reconstruct it again");
   HeightMap map = empty_map(extent, frame_of_map.rotary(), options.raster_mm);
+  map.height_origin = map.rotary ? 0 : reader.origin().z();
   const double mm_a_column_unit = map.rotary ? extent.radius * std::numbers::pi / 180 : 1;
   const double max_gap_mm = std::max(kUsualSpacings * spacing.along_stripe_mm, options.bridge_mm);
   MapMaker maker(map, options, kUsualSteps * spacing.between_frames_mm / mm_a_column_unit);
-  CloudReader reader(cloud);
   std::vector<CloudPoint> frame;
   while (reader.next_frame(frame)) {
     std::vector<int> sensors;

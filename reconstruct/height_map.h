@@ -24,6 +24,7 @@ struct HeightMap {
   bool rotary = false;
   double column_first = 0, column_step = 0;  ///< mm, or degrees
   double row_first = 0, row_step = 0;        ///< mm
+  double height_origin = 0;                  ///< mm, what the heights count from (the cloud's origin)
   std::vector<float> heights;                ///< mm, row by row
   std::vector<float> intensity;              ///< grey levels
   std::vector<float> sigma;                  ///< mm

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <fstream>
 #include <optional>
 #include <string_view>
@@ -35,22 +36,50 @@ std::optional<std::int64_t> number_after(std::string_view header, std::string_vi
   return number;
 }
 
-/// The header has to be, byte for byte, the one that CloudWriter gives to the number of points it names, and
-/// the file as long as that says. Returns that number.
-std::int64_t check_header(const std::filesystem::path& path, CloudFormat format) {
-  const std::string header = first_bytes(path, cloud_header(format, 0).size());
-  const auto num_points =
-      number_after(header, format == CloudFormat::kPly ? "\nelement vertex " : "\nPOINTS ");
-  if (!num_points || header != cloud_header(format, *num_points))
+/// The three numbers behind `key` at the start of a line; 0 where there is no such line.
+CloudOrigin origin_after(std::string_view header, std::string_view key) {
+  CloudOrigin origin = CloudOrigin::Zero();
+  std::size_t at = header.find(key);
+  if (at == std::string_view::npos) return origin;
+  at += key.size();
+  for (int i = 0; i < 3; ++i) {
+    const std::size_t end = header.find_first_of(" \n", at);
+    if (end == std::string_view::npos) return CloudOrigin::Zero();
+    const auto value = std::from_chars(header.data() + at, header.data() + end, origin[i]);
+    if (value.ec != std::errc{} || !std::isfinite(origin[i])) return CloudOrigin::Zero();
+    at = end + 1;
+  }
+  return origin;
+}
+
+struct Header {
+  std::int64_t num_points = 0;
+  CloudOrigin origin = CloudOrigin::Zero();
+  std::uint64_t bytes = 0;
+};
+
+/// The header has to be, byte for byte, the one that CloudWriter gives to the number of points and the origin
+/// that it names, and the file as long as that says.
+Header check_header(const std::filesystem::path& path, CloudFormat format) {
+  constexpr std::size_t kLongest = 1024;
+  const bool ply = format == CloudFormat::kPly;
+  const std::string start = first_bytes(path, kLongest);
+  const auto num_points = number_after(start, ply ? "\nelement vertex " : "\nPOINTS ");
+  Header header;
+  header.origin = origin_after(start, ply ? "\ncomment origin " : "\nVIEWPOINT ");
+  const std::string expected = num_points ? cloud_header(format, *num_points, header.origin) : "";
+  if (!num_points || !start.starts_with(expected))
     throw Error(path.string(), "its header is not that of a lightstripe cloud",
                 "reconstruct the cloud again");
-  const auto expected = header.size() + static_cast<std::uintmax_t>(*num_points) * sizeof(CloudPoint);
+  header.num_points = *num_points;
+  header.bytes = expected.size();
+  const auto bytes = header.bytes + static_cast<std::uintmax_t>(*num_points) * sizeof(CloudPoint);
   const auto found = std::filesystem::file_size(path);
-  if (found != expected)
+  if (found != bytes)
     throw Error(path.string(),
-                fmt::format("{} points need {} bytes but the file has {}", *num_points, expected, found),
+                fmt::format("{} points need {} bytes but the file has {}", *num_points, bytes, found),
                 "it was cut short or changed: reconstruct the cloud again");
-  return *num_points;
+  return header;
 }
 
 /// The frame of the point that begins at this byte.
@@ -74,8 +103,10 @@ CloudPart inspect_cloud(const std::filesystem::path& path) {
   CloudPart part;
   part.format = cloud_format(path, path.string());
   LIGHTSTRIPE_CHECK(part.format != CloudFormat::kXyz, "an .xyz file counts nothing");
-  part.num_points = check_header(path, part.format);
-  part.points_at = cloud_header(part.format, part.num_points).size();
+  const Header header = check_header(path, part.format);
+  part.num_points = header.num_points;
+  part.points_at = header.bytes;
+  part.origin = header.origin;
   if (part.num_points == 0) return part;
   std::ifstream file(path, std::ios::binary);
   part.first_frame = frame_at(file, part.points_at);
@@ -89,6 +120,7 @@ struct CloudReader::Impl {
   static constexpr std::size_t kBlock = 65536;  // points read at once
   std::filesystem::path path;
   std::int64_t num_points = 0, left = 0;  ///< left: not yet in the buffer
+  CloudOrigin origin = CloudOrigin::Zero();
   std::ifstream file;
   std::vector<CloudPoint> buffer;
   std::size_t next = 0;  ///< in the buffer
@@ -108,14 +140,18 @@ struct CloudReader::Impl {
 CloudReader::CloudReader(const std::filesystem::path& path) : impl_(new Impl) {
   const CloudFormat format = format_with_fields(path);
   impl_->path = path;
-  impl_->num_points = impl_->left = check_header(path, format);
+  const Header header = check_header(path, format);
+  impl_->num_points = impl_->left = header.num_points;
+  impl_->origin = header.origin;
   impl_->file.open(path, std::ios::binary);
-  impl_->file.seekg(static_cast<std::streamoff>(cloud_header(format, impl_->num_points).size()));
+  impl_->file.seekg(static_cast<std::streamoff>(header.bytes));
 }
 
 CloudReader::~CloudReader() = default;
 
 std::int64_t CloudReader::num_points() const { return impl_->num_points; }
+
+const Eigen::Vector3d& CloudReader::origin() const { return impl_->origin; }
 
 bool CloudReader::next_frame(std::vector<CloudPoint>& points) {
   points.clear();
@@ -132,10 +168,10 @@ std::vector<CloudPoint> read_cloud(const std::filesystem::path& path) {
   const CloudFormat format = format_with_fields(path);
   // The header is known byte for byte and the size fits, so the points lie in the file as they do in memory.
   // (PCL's PCD reader goes on looking for header lines in the points themselves.)
-  const std::int64_t num_points = check_header(path, format);
-  std::vector<CloudPoint> points(static_cast<std::size_t>(num_points));
+  const Header header = check_header(path, format);
+  std::vector<CloudPoint> points(static_cast<std::size_t>(header.num_points));
   std::ifstream file(path, std::ios::binary);
-  file.seekg(static_cast<std::streamoff>(cloud_header(format, num_points).size()));
+  file.seekg(static_cast<std::streamoff>(header.bytes));
   file.read(reinterpret_cast<char*>(points.data()),
             static_cast<std::streamsize>(points.size() * sizeof(CloudPoint)));
   if (!file) throw Error(path.string(), "cannot be read", "check the file and its disk");

@@ -159,7 +159,8 @@ SurfaceMesh mesh_cloud(const std::filesystem::path& cloud, const Rig& rig, const
   std::vector<CloudPoint> frame;
   std::map<int, SensorFrame> before;
   while (reader.next_frame(frame)) {
-    const std::optional<Rigid3> place = places(frame.front().frame);
+    std::optional<Rigid3> place = places(frame.front().frame);
+    if (place) place->translation -= reader.origin();  // as the points are
     for (std::size_t s = 0; s < rig.sensors.size(); ++s) {
       SensorFrame now = zipper.pieces_of(frame, static_cast<int>(s));
       if (now.pieces.empty()) continue;

@@ -24,7 +24,8 @@ CloudPoint cloud_point(std::int64_t frame, const ProfilePoint& p) {
 
 }  // namespace
 
-Profile profile_of_frame(const std::vector<CloudPoint>& points, const Motion& motion) {
+Profile profile_of_frame(const std::vector<CloudPoint>& points, const Motion& motion,
+                         const Eigen::Vector3d& origin) {
   Profile profile;
   if (!points.empty()) profile.frame = points.front().frame;
   for (const CloudPoint& p : points) {
@@ -32,7 +33,7 @@ Profile profile_of_frame(const std::vector<CloudPoint>& points, const Motion& mo
     out.position = {p.x, p.y, p.z};
     out.u = p.y, out.v = p.z;
     if (motion.type == MotionType::kRotary) {
-      const Eigen::Vector3d arm = out.position - motion.axis_point;
+      const Eigen::Vector3d arm = out.position + origin - motion.axis_point;
       out.u = arm.dot(motion.axis_direction);
       out.v = (arm - out.u * motion.axis_direction).norm();
     }
@@ -89,11 +90,11 @@ CloudView view_of_sections(const MeasureJob& job, const MeasureResult& result,
 }
 
 FrameDeviation deviation_from(const ReferenceShape& reference, const Motion& motion,
-                              const RegistrationOptions& options) {
+                              const Eigen::Vector3d& origin, const RegistrationOptions& options) {
   SectionPrior prior;
   if (motion.type == MotionType::kRotary) prior.upright = prior.may_mirror = true;
-  return [&reference, motion, options, prior](const std::vector<CloudPoint>& points) {
-    const Profile profile = profile_of_frame(points, motion);
+  return [&reference, motion, origin, options, prior](const std::vector<CloudPoint>& points) {
+    const Profile profile = profile_of_frame(points, motion, origin);
     return section_deviation(profile, register_section(section_of(profile), reference, prior, options),
                              reference);
   };

@@ -68,7 +68,7 @@ struct Groups {
   }
 };
 
-json span_json(const Span& span) { return {span.low, span.size()}; }
+json span_json(const Span& span, double origin) { return {span.low + origin, span.size()}; }
 
 double largest(const std::vector<CloudPoint>& points, float CloudPoint::*field) {
   double out = 0;
@@ -158,6 +158,7 @@ CloudView view_of_cloud(const std::filesystem::path& cloud, const FrameDeviation
   CloudView view;
   view.title = cloud.filename().string();
   view.total = reader.num_points();
+  view.origin = reader.origin();
   EvenThinning thinning(view.total, max_points);
   std::vector<CloudPoint> frame;
   while (reader.next_frame(frame)) {
@@ -189,7 +190,9 @@ std::string cloud_view_html(const CloudView& view) {
             {"sensors", view.sensors},
             {"nominal", view.nominal},
             {"deviation", !view.deviation_mm.empty()},
-            {"box", {span_json(box[0]), span_json(box[1]), span_json(box[2])}},
+            {"box",
+             {span_json(box[0], view.origin.x()), span_json(box[1], view.origin.y()),
+              span_json(box[2], view.origin.z())}},
             {"frames", frame_runs(view.points)},
             {"links", links_json(view)}};
   const std::string binary = binary_columns(view, box, groups, data);

@@ -32,11 +32,12 @@ inline constexpr std::int64_t kMaxViewPoints = 1'200'000;
 
 struct CloudView {
   std::string title;
-  std::vector<std::string> sensors;  ///< names; empty: by index
-  std::int64_t total = 0;            ///< points of the whole cloud
-  std::vector<CloudPoint> points;    ///< shown, in the order of their frames
-  std::vector<float> deviation_mm;   ///< from the nominal, + outside, NaN unknown; empty: none given
-  std::string nominal;               ///< what the deviation is from
+  std::vector<std::string> sensors;                  ///< names; empty: by index
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< what the points count from, mm; the page adds it
+  std::int64_t total = 0;                            ///< points of the whole cloud
+  std::vector<CloudPoint> points;                    ///< shown, in the order of their frames
+  std::vector<float> deviation_mm;  ///< from the nominal, + outside, NaN unknown; empty: none given
+  std::string nominal;              ///< what the deviation is from
   std::map<std::int64_t, std::vector<FrameLink>> links;  ///< pictures of the frames shown
 };
 

@@ -23,8 +23,8 @@ std::string filter_in_place(const fs::path& cloud, const CloudFilter& filter) {
   std::vector<CloudPoint> points = read_cloud(cloud);
   const std::size_t before = points.size();
   points = filter_cloud(std::move(points), filter);
-  std::string bytes =
-      cloud_header(cloud_format(cloud, cloud.string()), static_cast<std::int64_t>(points.size()));
+  const CloudPart part = inspect_cloud(cloud);
+  std::string bytes = cloud_header(part.format, static_cast<std::int64_t>(points.size()), part.origin);
   bytes.append(reinterpret_cast<const char*>(points.data()), points.size() * sizeof(CloudPoint));
   write_file(cloud, bytes);
   return fmt::format("filter: {} of {} points stay -> {}", points.size(), before, cloud.string());

@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "core/error.h"
+#include "io/name_numbers.h"
 #include "io/number_text.h"
 
 namespace lightstripe {
@@ -31,7 +32,8 @@ NameParts parts_of(std::string_view name) {
   const std::size_t last = stem.find_last_of(kDigits);
   if (last == std::string_view::npos) return {};
   const std::size_t before = stem.find_last_not_of(kDigits, last);
-  const std::size_t first = before == std::string_view::npos ? 0 : before + 1;
+  std::size_t first = before == std::string_view::npos ? 0 : before + 1;
+  if (is_minus_sign(stem, before)) first = before;
   return {stem.substr(0, first), stem.substr(last + 1), parse_integer(stem.substr(first, last + 1 - first))};
 }
 
@@ -84,17 +86,86 @@ std::size_t misfit(const std::vector<Numbers>& numbers, const Numbering& numberi
   return apart.size();
 }
 
+bool fits_32_bits(const std::vector<Numbers>& numbers) {
+  constexpr std::int64_t kMost = std::numeric_limits<std::int32_t>::max();
+  for (const Numbers& of_source : numbers)
+    for (const std::int64_t n : of_source)
+      if (n < 0 || n >= kMost) return false;
+  return true;
+}
+
 std::optional<Numbering> choose_numbering(const std::vector<Numbers>& numbers, const Numbers& positions) {
   const auto counted = from_lowest(numbers);
-  if (!counted || positions.empty()) return counted;
+  if (!counted || positions.empty() || !fits_32_bits(numbers)) return counted;
   const Numbering as_they_stand;
   return misfit(numbers, as_they_stand, positions) <= misfit(numbers, *counted, positions) ? as_they_stand
                                                                                            : *counted;
 }
 
+/// Sources of one length, each without a gap or a doubled number in the same steps, that begin apart.
+bool start_apart_without_gap(const std::vector<Numbers>& numbers) {
+  const Numbers* first = nullptr;
+  bool apart = false;
+  for (const Numbers& of_source : numbers) {
+    if (of_source.empty()) continue;
+    const std::int64_t step = of_source.size() > 1 ? of_source[1] - of_source[0] : 0;
+    if (step <= 0) return false;
+    for (std::size_t i = 1; i < of_source.size(); ++i)
+      if (of_source[i] - of_source[i - 1] != step) return false;
+    if (first == nullptr) first = &of_source;
+    if (of_source.size() != first->size() || step != (*first)[1] - (*first)[0]) return false;
+    apart = apart || of_source.front() != first->front();
+  }
+  return apart;
+}
+
+/// Whether two sources have other numbers.
+bool differ(const std::vector<Numbers>& numbers) {
+  const Numbers* first = nullptr;
+  for (const Numbers& of_source : numbers) {
+    if (of_source.empty()) continue;
+    if (first != nullptr && *first != of_source) return true;
+    first = &of_source;
+  }
+  return false;
+}
+
+/// Whether the order fits the travel table at least as well as the numbers do.
+bool order_fits_better(const std::vector<Numbers>& numbers, const Numbers& positions) {
+  if (positions.empty()) return true;
+  Numbers order;
+  for (const Numbers& of_source : numbers) order.resize(std::max(order.size(), of_source.size()));
+  std::iota(order.begin(), order.end(), 0);
+  const auto by_numbers = choose_numbering(numbers, positions);
+  return !by_numbers || misfit({order}, {}, positions) <= misfit(numbers, *by_numbers, positions);
+}
+
+/// The numbers of the pictures in order, where the table's span most of them and they are far from running
+/// numbers: time stamps.
+Numbers stamps_of(const std::vector<Numbers>& numbers, const Numbers& positions) {
+  for (const Numbers& of_source : numbers) {
+    if (of_source.empty()) continue;
+    if (positions.empty() || !std::is_sorted(of_source.begin(), of_source.end())) return {};
+    const auto within = std::count_if(of_source.begin(), of_source.end(), [&](std::int64_t n) {
+      return n >= positions.front() && n <= positions.back();
+    });
+    return 2 * within >= static_cast<std::ptrdiff_t>(of_source.size()) ? of_source : Numbers{};
+  }
+  return {};
+}
+
+/// Numbers in steps of their own size (stamps of an exact clock): the table's are of their kind, so they are
+/// looked up, not counted.
+bool is_time_stamps(const std::vector<Numbers>& numbers, const Numbering& numbering,
+                    const Numbers& positions) {
+  return !fits_32_bits(numbers) && numbering.base != 0 && !positions.empty() &&
+         !stamps_of(numbers, positions).empty();
+}
+
 FrameMap by_number(std::span<const FrameSource* const> sources, const std::vector<Numbers>& numbers,
                    const Numbering& numbering) {
   FrameMap map;
+  map.number_step = numbering.step;
   map.first = std::numeric_limits<std::int64_t>::max();
   for (const Numbers& of_source : numbers)
     for (const std::int64_t n : of_source) {
@@ -151,10 +222,19 @@ std::vector<std::int64_t> numbers_in_names(const std::vector<std::string>& names
 
 FrameMap map_frames(std::span<const FrameSource* const> sources, const std::vector<std::int64_t>& positions,
                     const std::string& subject) {
-  if (const auto numbers = all_numbers(sources))
-    if (const auto numbering = choose_numbering(*numbers, positions))
-      return by_number(sources, *numbers, *numbering);
-  return by_order(sources, subject);
+  const auto numbers = all_numbers(sources);
+  if (!numbers) return by_order(sources, subject);
+  if (start_apart_without_gap(*numbers) && order_fits_better(*numbers, positions)) {
+    FrameMap map = by_order(sources, subject);
+    map.paired_by_order = true;
+    return map;
+  }
+  if (const auto numbering = choose_numbering(*numbers, positions))
+    if (!is_time_stamps(*numbers, *numbering, positions)) return by_number(sources, *numbers, *numbering);
+  FrameMap map = by_order(sources, subject);
+  map.stamps = stamps_of(*numbers, positions);
+  map.paired_by_order = differ(*numbers);
+  return map;
 }
 
 }  // namespace lightstripe

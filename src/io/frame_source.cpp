@@ -52,6 +52,7 @@ class ImageFolder : public FrameSource {
 
   std::int64_t size() const override { return static_cast<std::int64_t>(names_.size()); }
   std::string name(std::int64_t index) const override { return names_[checked(index)]; }
+  fs::path file(std::int64_t index) const override { return folder_ / names_[checked(index)]; }
   GreyImage read(std::int64_t index) const override {
     return read_grey_image(folder_ / names_[checked(index)], channel_);
   }

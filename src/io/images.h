@@ -82,8 +82,12 @@ class FrameSource {
   virtual std::int64_t size() const = 0;
   /// File name (or "video.mp4#12") for messages and tables.
   virtual std::string name(std::int64_t index) const = 0;
+  /// The file that the picture lies in.
+  virtual std::filesystem::path file(std::int64_t) const { return {}; }
   /// An Error where this one picture cannot be read; the others are not touched by that.
   virtual GreyImage read(std::int64_t index) const = 0;
+  /// Why the recording may not be whole ("its header says 240 frames"); empty where nothing speaks for that.
+  virtual std::string doubt() const { return {}; }
   /// The running number that the picture's file name carries; nothing where the names have no such number.
   virtual std::optional<std::int64_t> number(std::int64_t) const { return std::nullopt; }
 };

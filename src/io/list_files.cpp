@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "io/images.h"
+#include "io/name_numbers.h"
 
 namespace lightstripe {
 namespace {
@@ -43,6 +44,19 @@ bool matches(std::string_view pattern, std::string_view name) {
   return pattern.find_first_not_of('*', p) == std::string_view::npos;
 }
 
+bool begins_negative(std::string_view text, std::size_t at) {
+  return is_minus_sign(text, at) && at + 1 < text.size() && is_digit(text[at + 1]);
+}
+
+/// The digits of the number at `at`, which goes behind it; without sign and zeros ahead.
+std::string_view magnitude_at(std::string_view text, std::size_t& at, bool negative) {
+  if (negative) ++at;
+  while (at < text.size() && text[at] == '0') ++at;
+  const std::size_t start = at;
+  while (at < text.size() && is_digit(text[at])) ++at;
+  return text.substr(start, at - start);
+}
+
 std::vector<std::string> matching_names(const fs::path& folder, const std::string& pattern) {
   std::vector<std::string> found;
   std::error_code error;
@@ -63,21 +77,21 @@ std::vector<std::string> matching_names(const fs::path& folder, const std::strin
 bool natural_less(const std::string& a, const std::string& b) {
   std::size_t i = 0, j = 0;
   while (i < a.size() && j < b.size()) {
-    if (!is_digit(a[i]) || !is_digit(b[j])) {
+    const bool negative_a = begins_negative(a, i), negative_b = begins_negative(b, j);
+    const bool number_a_here = negative_a || is_digit(a[i]), number_b_here = negative_b || is_digit(b[j]);
+    if (!number_a_here || !number_b_here) {
       if (a[i] != b[j]) return static_cast<unsigned char>(a[i]) < static_cast<unsigned char>(b[j]);
       ++i;
       ++j;
       continue;
     }
-    const auto number_at = [](const std::string& text, std::size_t& at) {
-      while (at < text.size() && text[at] == '0') ++at;
-      const std::size_t start = at;
-      while (at < text.size() && is_digit(text[at])) ++at;
-      return std::string_view(text).substr(start, at - start);
-    };
-    const std::string_view number_a = number_at(a, i), number_b = number_at(b, j);
-    if (number_a.size() != number_b.size()) return number_a.size() < number_b.size();
-    if (number_a != number_b) return number_a < number_b;
+    const std::string_view number_a = magnitude_at(a, i, negative_a),
+                           number_b = magnitude_at(b, j, negative_b);
+    if (number_a.empty() && number_b.empty()) continue;  // 0 and -0: equal so far
+    if (negative_a != negative_b) return negative_a;
+    const bool less =
+        number_a.size() != number_b.size() ? number_a.size() < number_b.size() : number_a < number_b;
+    if (number_a != number_b) return less != negative_a;
   }
   const std::size_t left_a = a.size() - i, left_b = b.size() - j;
   return left_a != left_b ? left_a < left_b : a < b;  // "01" and "1": any order, but always the same
@@ -88,6 +102,9 @@ FileNames list_file_names(const fs::path& base, const std::string& pattern) {
   const fs::path folder = whole.parent_path();
   const std::string name = whole.filename().string();
   std::error_code error;
+  // A file of exactly this name, though it has a * or ? in it.
+  if (name.find_first_of(kWildcards) != std::string::npos && fs::is_regular_file(whole, error))
+    return {folder, {name}};
   if (fs::path(pattern).parent_path().string().find_first_of(kWildcards) != std::string::npos)
     throw Error(pattern, "has a * or ? in a folder's name",
                 "name one folder and use * in the file name only");

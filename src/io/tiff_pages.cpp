@@ -58,6 +58,7 @@ class TiffPages : public FrameSource {
   std::string name(std::int64_t index) const override {
     return fmt::format("{}#{}", path_.filename().string(), index);
   }
+  std::filesystem::path file(std::int64_t) const override { return path_; }
   GreyImage read(std::int64_t index) const override { return read_as(index, channel_, nullptr); }
 
  private:

@@ -3,6 +3,7 @@
 #include "io/video_frames.h"
 
 #include <fmt/format.h>
+#include <algorithm>
 #include <map>
 #include <mutex>
 #include <opencv2/videoio.hpp>
@@ -30,6 +31,14 @@ class VideoFrames : public FrameSource {
     return fmt::format("{}#{}", path_.filename().string(), index);
   }
 
+  std::filesystem::path file(std::int64_t) const override { return path_; }
+  /// A container's own count may be an estimate, but a whole file is not short of many frames.
+  std::string doubt() const override {
+    if (stated_ <= size_ + std::max<std::int64_t>(2, size_ / 50)) return {};
+    return fmt::format("holds {} frames that can be read, its header says {}: it is cut short or damaged",
+                       size_, stated_);
+  }
+
   GreyImage read(std::int64_t index) const override {
     LIGHTSTRIPE_CHECK(index >= 0 && index < size_, "a frame of the sequence");
     return grey_values(picture(index), channel_, path_.string());
@@ -47,6 +56,8 @@ class VideoFrames : public FrameSource {
   }
 
   void count_frames() {
+    const double stated = capture_.get(cv::CAP_PROP_FRAME_COUNT);
+    if (stated > 0 && stated < 1e9) stated_ = static_cast<std::int64_t>(stated);
     for (cv::Mat frame; capture_.grab(); ++size_) {
       if (channel_ != Channel::kAuto || size_ % kSampleStep != 0 || !capture_.retrieve(frame)) continue;
       const Channel chosen = strongest_channel(frame).channel;
@@ -77,7 +88,7 @@ class VideoFrames : public FrameSource {
 
   std::filesystem::path path_;
   Channel channel_;
-  std::int64_t size_ = 0;
+  std::int64_t size_ = 0, stated_ = 0;
   mutable std::mutex mutex_;
   mutable cv::VideoCapture capture_;
   mutable std::int64_t next_ = 0;

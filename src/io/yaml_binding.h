@@ -30,6 +30,9 @@ void read_subtree(const YamlSubtree& part, T& object) {
   if (!part.empty()) detail::read_field(detail::parse_yaml(part.text, place), object, place);
 }
 
+/// A text as it stands in YAML, in quotes and escaped where it would be misread.
+std::string yaml_text(std::string_view text);
+
 /// YAML text that read_yaml reads back to the same bits. With comments it explains the fields
 /// and shows those that are not given as "# key:".
 template <HasFields T>

@@ -7,6 +7,7 @@
 #include <cctype>
 
 #include "io/number_text.h"
+#include "io/yaml_binding.h"
 #include "io/yaml_node.h"
 
 namespace lightstripe::detail {
@@ -22,17 +23,59 @@ bool safe_character(char c) {
   return byte >= 0x80 || std::isalnum(byte) != 0 || kSafe.find(c) != std::string_view::npos;
 }
 
+/// Bytes of the UTF-8 character at `at`; 0 where there is none.
+std::size_t character_length(std::string_view text, std::size_t at) {
+  const auto lead = static_cast<unsigned char>(text[at]);
+  const std::size_t length = lead < 0x80   ? 1
+                             : lead < 0xC2 ? 0
+                             : lead < 0xE0 ? 2
+                             : lead < 0xF0 ? 3
+                             : lead < 0xF5 ? 4
+                                           : 0;
+  if (length == 0 || text.size() - at < length) return 0;
+  for (std::size_t i = 1; i < length; ++i)
+    if ((static_cast<unsigned char>(text[at + i]) & 0xC0U) != 0x80) return 0;
+  return length;
+}
+
+/// How a character beyond ASCII has to be escaped: those that YAML takes for line breaks, control characters,
+/// a byte order mark, and bytes that are no UTF-8 (by their value, since YAML has no bytes). Empty: as it
+/// stands.
+std::string escape_of(std::string_view character, std::size_t length) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(character[i]); };
+  if (length == 0) return fmt::format("\\x{:02x}", byte(0));
+  if (length == 2 && byte(0) == 0xC2 && byte(1) < 0xA0)
+    return byte(1) == 0x85 ? "\\N" : fmt::format("\\x{:02x}", byte(1));
+  if (character == "\xe2\x80\xa8") return "\\L";
+  if (character == "\xe2\x80\xa9") return "\\P";
+  if (character == "\xef\xbb\xbf") return "\\uFEFF";
+  return {};
+}
+
+/// Whether a character beyond ASCII may not stand as it is.
+bool needs_escape(std::string_view text) {
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t length = character_length(text, at);
+    if (length != 1 && !escape_of(text.substr(at, std::max<std::size_t>(length, 1)), length).empty())
+      return true;
+    at += std::max<std::size_t>(length, 1);
+  }
+  return false;
+}
+
 /// Whether a plain scalar can stand without quotes in flow style.
 bool safe_plain(std::string_view text) {
   if (text.empty() || text.front() == ' ' || text.back() == ' ' || text == "-") return false;
   constexpr std::string_view kRiskyFirst = "*%@=-";
   if (kRiskyFirst.find(text.front()) != std::string_view::npos && !parse_number(text)) return false;
-  return std::all_of(text.begin(), text.end(), safe_character);
+  return std::all_of(text.begin(), text.end(), safe_character) && !needs_escape(text);
 }
 
 std::string quoted_text(std::string_view text) {
   std::string out = "\"";
-  for (char c : text) {
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t length = character_length(text, at), step = std::max<std::size_t>(length, 1);
+    const char c = text[at];
     const auto byte = static_cast<unsigned char>(c);
     if (c == '"' || c == '\\') {
       out.push_back('\\');
@@ -42,8 +85,10 @@ std::string quoted_text(std::string_view text) {
     } else if (byte < 0x20 || byte == 0x7f) {
       out += fmt::format("\\x{:02x}", byte);
     } else {
-      out.push_back(c);
+      const std::string escape = byte < 0x80 ? "" : escape_of(text.substr(at, step), length);
+      out += escape.empty() ? std::string(text.substr(at, step)) : escape;
     }
+    at += step;
   }
   out.push_back('"');
   return out;
@@ -173,3 +218,11 @@ std::string emit_on_lines(const YamlNode& node) {
 }
 
 }  // namespace lightstripe::detail
+
+namespace lightstripe {
+
+std::string yaml_text(std::string_view text) {
+  return detail::needs_quotes(text) ? detail::quoted_text(text) : std::string(text);
+}
+
+}  // namespace lightstripe

@@ -107,5 +107,53 @@ TEST(MapFrames, ASensorThatIsNotInTheScanHasNoPictures) {
   EXPECT_THAT(map.index[1], ElementsAre(0, 1));
 }
 
+TEST(NumbersInNames, MayHaveASign) {
+  EXPECT_THAT(numbers_in_names({"x_-10.png", "x_-5.png", "x_3.png"}), ElementsAre(-10, -5, 3));
+  EXPECT_THAT(numbers_in_names({"img-5.png", "img-6.png"}), ElementsAre(5, 6)) << "a hyphen is no sign";
+  const Named source({"x_-2.png", "x_-1.png", "x_0.png", "x_1.png"});
+  EXPECT_THAT(map_of({&source}).index[0], ElementsAre(0, 1, 2, 3));
+}
+
+TEST(MapFrames, CountersThatStartApartArePairedByOrderWhereNoneHasAGap) {
+  const Named gauge = numbered({0, 1, 2, 3, 4, 5, 6, 7}), field = numbered({3, 4, 5, 6, 7, 8, 9, 10}),
+              gap = numbered({3, 4, 5, 6, 8, 9, 10, 11}),
+              far = numbered({900, 901, 902, 903, 905, 906, 907, 908});
+  for (const std::vector<std::int64_t>& table : {std::vector<std::int64_t>{}, {0, 1, 2, 3, 4, 5, 6, 7}}) {
+    const FrameMap map = map_of({&gauge, &field}, table);
+    EXPECT_TRUE(map.paired_by_order);
+    EXPECT_EQ(map.end, 8);
+    EXPECT_THAT(map.index[1], ElementsAre(0, 1, 2, 3, 4, 5, 6, 7));
+  }
+  EXPECT_FALSE(map_of({&gauge, &gap}).paired_by_order);
+  EXPECT_EQ(map_of({&gauge, &gap}).end, 12);
+  EXPECT_TRUE(map_of({&gauge, &far}).paired_by_order) << "no common numbers: the order is all there is";
+  const FrameMap as_numbered = map_of({&gauge, &field}, {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10});
+  EXPECT_FALSE(as_numbered.paired_by_order) << "the table knows all numbers";
+  EXPECT_EQ(as_numbered.end, 11);
+}
+
+TEST(MapFrames, TimeStampsAreLookedUpInTheTable) {
+  std::vector<std::string> names;
+  std::vector<std::int64_t> table;
+  for (const std::int64_t frame : {0, 1, 2, 3, 4}) {
+    table.push_back(1'700'000'000'123'456'789 + frame * 33'333'334 - frame % 2);
+    names.push_back(std::to_string(table.back()) + ".png");
+  }
+  const Named source(names);
+  const FrameMap map = map_of({&source}, table);
+  EXPECT_EQ(map.first, 0);
+  EXPECT_EQ(map.end, 5);
+  EXPECT_EQ(map.stamps, table);
+  EXPECT_TRUE(map_of({&source}, {0, 1, 2, 3, 4}).stamps.empty()) << "the table counts frames";
+}
+
+TEST(MapFrames, EvenStampsOfAnExactClockAreLookedUpAsWell) {
+  const Named source({"1700000000000000000.png", "1700000000040000000.png", "1700000000080000000.png"});
+  const std::vector<std::int64_t> table = {1'700'000'000'000'000'000, 1'700'000'000'040'000'000,
+                                           1'700'000'000'080'000'000};
+  EXPECT_EQ(map_of({&source}, table).stamps, table);
+  EXPECT_EQ(map_of({&source}, {0, 1, 2}).end, 3);
+}
+
 }  // namespace
 }  // namespace lightstripe

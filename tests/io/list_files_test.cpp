@@ -22,6 +22,10 @@ TEST(NaturalLess, ComparesRunsOfDigitsAsNumbers) {
   EXPECT_FALSE(natural_less("img_10", "img_2"));
   EXPECT_TRUE(natural_less("a2b10", "a2b11"));
   EXPECT_TRUE(natural_less("007", "10"));
+  EXPECT_TRUE(natural_less("x_-10", "x_-5"));
+  EXPECT_TRUE(natural_less("x_-5", "x_3"));
+  EXPECT_TRUE(natural_less("-5.png", "0.png"));
+  EXPECT_TRUE(natural_less("img-5", "img-10")) << "a hyphen is no sign";
   EXPECT_FALSE(natural_less("0010", "9"));
   EXPECT_TRUE(natural_less("a", "a1"));
   EXPECT_TRUE(natural_less("9", "a"));
@@ -31,8 +35,9 @@ TEST(NaturalLess, ComparesRunsOfDigitsAsNumbers) {
 }
 
 TEST(NaturalLess, IsAStrictOrder) {
-  const std::vector<std::string> texts = {"",  "0",  "00",  "1",  "01",   "1a",  "01a",
-                                          "a", "a0", "a00", "a1", "a01b", "a1b", "b"};
+  const std::vector<std::string> texts = {"",   "0",   "00",   "1",   "01",   "1a",  "01a",
+                                          "-1", "_-1", "_-01", "_-2", "_1",   "_-",  "-0",
+                                          "a",  "a0",  "a00",  "a1",  "a01b", "a1b", "b"};
   for (const auto& a : texts)
     for (const auto& b : texts) {
       if (a != b) {

@@ -237,3 +237,53 @@ def test_a_width_up_to_twice_the_true_one_costs_little_and_half_of_it_the_line(t
         points = points[(points["x"] > 10) & (points["x"] < 290)]
         assert np.std(points["y"] - 0.04 * points["x"]) < 0.015, share
     assert lightstripe.extract(image, stripe_width=0.3 * true_width).stripes == []
+
+
+def test_the_jobs_give_what_the_commands_write(scan, tmp_path):
+    rig_file = scan / "truth/rig.yaml"
+    made = lightstripe.reconstruct(scan / "scan.yaml", tmp_path / "cloud.ply", rig=rig_file, profiles=tmp_path / "profiles.csv")
+    assert made.usable and made.num_frames == 6
+    assert (tmp_path / "cloud.ply").read_bytes() == (scan / "cloud.ply").read_bytes()
+    assert (tmp_path / "profiles.csv").read_bytes() == (scan / "profiles.csv").read_bytes()
+    assert len(made.cloud) == made.num_points and made.profiles == []
+
+    kept = lightstripe.reconstruct(scan / "scan.yaml", rig=rig_file)
+    assert [profile.frame for profile in kept.profiles] == list(range(6))
+    assert sum(len(profile.points) for profile in kept.profiles) == made.num_points
+    assert kept.cloud is None
+
+    calibration = lightstripe.calibrate(scan / "calibration.yaml", tmp_path / "rig.yaml", extraction={"stripe_width": 6})
+    assert calibration.num_images == len(calibration.views) + len([r for r in calibration.rejected if "board" in r["reason"]])
+    assert calibration.usable == (tmp_path / "rig.yaml").exists()
+    assert calibration.usable or calibration.reason
+    if calibration.usable:
+        assert calibration.rig.to_yaml() == (tmp_path / "rig.yaml").read_text()
+
+
+def test_measure_gives_the_rows_of_the_table(scan, tmp_path):
+    found = lightstripe.measure(scan / "profiles.csv", "rail", tmp_path / "measurements.csv")
+    with open(tmp_path / "measurements.csv", newline="") as table:
+        rows = list(csv.DictReader(table))
+    assert [str(row["frame"]) for row in found.rows] == [row["frame"] for row in rows]
+    for ours, theirs in zip(found.rows, rows):
+        assert ours["status"] == theirs["status"]
+        assert (ours["vertical_wear"] is None) == (theirs["vertical_wear"] == "")
+    assert found.usable or found.reason
+    with pytest.raises(ValueError, match="tram"):
+        lightstripe.measure(scan / "profiles.csv", "tram")
+    with pytest.raises(lightstripe.Error, match="iterationz"):
+        lightstripe.measure(scan / "profiles.csv", "rail", options={"registration": {"iterationz": 3}})
+
+
+def test_the_stubs_name_what_the_module_has():
+    stubs = (pathlib.Path(lightstripe.__file__).parent / "__init__.pyi").read_text()
+    declared = set(re.findall(r"^(?:def|class) (\w+)", stubs, re.M))
+    assert declared == set(lightstripe.__all__)
+    for name in declared:
+        thing = getattr(lightstripe, name)
+        if not isinstance(thing, type) or issubclass(thing, Exception):
+            continue
+        body = re.search(rf"^class {name}\b.*?(?=^\S|\Z)", stubs, re.M | re.S).group(0)
+        members = {m for m in vars(thing) if not m.startswith("_")} - {"name", "value"}
+        missing = {m for m in members if not re.search(rf"\b{m}\b", body)}
+        assert not missing - {"name", "value"}, (name, missing)
