@@ -64,11 +64,8 @@ void write_run_record(const std::filesystem::path& output, const std::string& co
   std::string text = fmt::format("lightstripe: {}\ncommand: {}\ninputs:\n", LIGHTSTRIPE_VERSION, command);
   for (const auto& input : inputs) {
     const InputFacts facts = facts_of(input);
-    text += fmt::format(
-        "  - {{file: {}, bytes: {}, sha256: \"{}\"}}
-        ", yaml_text(input.string()),
-        facts.bytes,
-        facts.sha256);
+    text += fmt::format("  - {{file: {}, bytes: {}, sha256: \"{}\"}}\n", yaml_text(input.string()),
+                        facts.bytes, facts.sha256);
   }
   write_file(output.string() + ".run.yaml", text + options);
 }
