@@ -22,6 +22,8 @@ struct ReconstructArguments {
   std::string scan, rig, profiles, preview;
   std::string frames;  ///< "A:B": frames A to B - 1; either may be left out
   bool strict = false, resume = false;
+  bool follow = false;
+  double idle_s = 0;
   bool dry_run = false;  ///< only tell which frames there are
   double checkpoint_s = 1;
   ScanProducts products;
@@ -94,6 +96,8 @@ ReconstructJob job_of(const ReconstructArguments& arguments) {
   job.strict = arguments.strict;
   job.resume = arguments.resume;
   job.checkpoint_s = arguments.checkpoint_s;
+  job.follow = arguments.follow;
+  job.idle_s = arguments.idle_s;
   job.threads = arguments.common.threads;
   return job;
 }
@@ -193,6 +197,13 @@ void add_reconstruct_command(CLI::App& app, Command& run) {
                     "a picture that is missing or cannot be read ends the run");
   command->add_flag("--dry-run", arguments->dry_run,
                     "read the scan file, print the frames that would be reconstructed (A:B), and stop");
+  command->add_flag(
+      "--follow", arguments->follow,
+      "the recording is still being written, or is a camera: go on until it is over, or Ctrl-C");
+  command
+      ->add_option("--idle", arguments->idle_s,
+                   "with --follow: over when nothing has come for so many seconds [never]")
+      ->check(CLI::NonNegativeNumber);
   command->add_flag("--resume", arguments->resume, "go on where an interrupted run was ended");
   command
       ->add_option("--checkpoint", arguments->checkpoint_s,

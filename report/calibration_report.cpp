@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "report/calibration_report.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "calib/assess/diagnosis.h"
@@ -42,6 +44,16 @@ json sensors_json(const CalibrationResult& result) {
                      {known ? result.rig.sensors[i].camera.width : 1,
                       known ? result.rig.sensors[i].camera.height : 1}}});
   }
+  return list;
+}
+
+json stripes_json(const CalibrationSummary& summary) {
+  json list = json::array();
+  for (const auto& s : summary.stripes)
+    list.push_back(
+        {{"name", s.plane > 0 ? fmt::format("{}, laser plane {}", s.sensor, s.plane + 1) : s.sensor},
+         {"found", s.found},
+         {"agreeing", s.agreeing}});
   return list;
 }
 
@@ -129,7 +141,7 @@ json rig_json(const SessionObservations& seen, const CalibrationResult& result) 
                        {"centre", point_json(sensor.rig_from_camera.translation)},
                        {"frustum", outline_json(frustum(sensor, 120))}});
   const Target& t = seen.observations.target;
-  const double w = (t.columns - 1) * t.pitch_x, h = (t.rows - 1) * t.pitch_y;
+  const double w = t.extent().x(), h = t.extent().y();
   if (result.diagnosis)
     for (const auto& pose : result.diagnosis->rig_from_board)
       boards.push_back(outline_json({pose * Eigen::Vector3d(0, 0, 0), pose * Eigen::Vector3d(w, 0, 0),
@@ -177,6 +189,7 @@ json report_data(const SessionObservations& seen, const CalibrationResult& resul
             {"why_not", cross.why_not},
             {"difference_mm", cross.difference_mm},
             {"predicted_mm", cross.predicted_mm}}},
+          {"stripes", stripes_json(result.summary)},
           {"sensors", sensors_json(result)},
           {"views", views_json(result.summary)},
           {"map", map_json(diagnosis)},

@@ -2,10 +2,42 @@
 // SPDX-License-Identifier: Apache-2.0
 // Draws calibration.html from its JSON with Chart.js and three.js.
 const signed = v => (Math.round(1000 * v) / 1000 || 0).toFixed(3);  // no -0.000
-const mm = (v, digits = 4) => v > 0 ? v.toFixed(digits) : '-';
+// At least two digits that count: 0.0000 would be a promise.
+const mm = (v, digits = 4) => !(v > 0) ? '-' : v >= 10 ** (1 - digits) ? v.toFixed(digits) : v.toPrecision(2);
+
+// What was left out, in a few words for the header.
+function leftOut() {
+  const words = [];
+  data.stripes.forEach(s => {
+    if (s.found > s.agreeing) words.push(`${s.found - s.agreeing} of ${s.found} stripes of ${s.name} were left out`);
+  });
+  const lost = data.rejected.length, all = lost + data.used.length;
+  if (lost) words.push(`${lost} of ${all} pictures were left out, whole or in part`);
+  return words.join('; ');
+}
+
+// Hides an empty part of the page with its heading and notes.
+function hide(id) {
+  for (let e = at(id); e; e = e.previousElementSibling) {
+    e.style.display = 'none';
+    if (e.tagName === 'H2') break;
+  }
+}
+
+// A field above the pictures that keeps those whose name, sensor or reason has the text in it.
+function addFilter(id) {
+  const box = at(id), field = element('input', undefined, undefined, 'filter');
+  field.placeholder = 'filter: sensor, picture or reason';
+  box.before(field);
+  field.addEventListener('input', () => {
+    const wanted = field.value.toLowerCase();
+    [...box.children].forEach(f => { f.style.display = f.textContent.toLowerCase().includes(wanted) ? '' : 'none'; });
+  });
+}
 
 function showVerdict() {
-  at('verdict').textContent = data.usable ? 'Usable' : 'Not usable: ' + data.message;
+  const but = leftOut();
+  at('verdict').textContent = data.usable ? 'Usable' + (but ? ', but ' + but : '') : 'Not usable: ' + data.message;
   at('verdict').classList.add(data.usable ? 'good' : 'bad');
   data.warnings.forEach(w => element('div', w, at('warnings'), 'warning'));
   const s = at('summary');
@@ -162,12 +194,15 @@ function showRig() {
 }
 
 showVerdict();
-if (data.map.length) { showMap('shape', 'shape'); showMap('absolute', 'place'); }
-if (data.views.length) showViews();
-data.sensors.forEach(showResiduals);
-if (data.rig3d.cameras.length) showRig();
+if (data.map.length) { showMap('shape', 'shape'); showMap('absolute', 'place'); } else hide('maps');
+if (data.views.length) showViews(); else hide('views_box');
+if (data.residuals.length) data.sensors.forEach(showResiduals); else hide('residuals');
+if (data.rig3d.cameras.length) showRig(); else hide('rig3d');
 data.rejected.forEach(p => picture(at('rejected'), p));
 if (!data.rejected.length) element('p', 'None.', at('rejected'));
 data.used.forEach(p => picture(at('used'), p));
+if (data.rejected.length > 3) addFilter('rejected');
+if (data.used.length > 3) addFilter('used');
+if (!Object.keys(data.sigma).length) hide('sigma_box');
 table(at('sigma'), ['parameter', '1 sigma'], Object.entries(data.sigma).map(([k, v]) => [k, v === null ? '-' : v.toPrecision(3)]));
 document.body.dataset.ready = 'yes';
