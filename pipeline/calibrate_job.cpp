@@ -37,8 +37,7 @@ std::vector<fs::path> inputs_of(const CalibrateJob& job) {
   const Session& session = job.session;
   std::vector<fs::path> inputs{job.session_file};
   const auto add = [&](const std::string& pattern) {
-    for (const auto& file : list_files(session.folder, pattern))
-      inputs.push_back(file.is_absolute() ? file : session.folder / file);
+    for (const auto& file : list_files(session.folder, pattern)) inputs.push_back(file);
   };
   for (const SessionSensor& sensor : session.sensors) {
     add(sensor.board);
