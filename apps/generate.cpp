@@ -11,6 +11,7 @@
 #include "core/error.h"
 #include "io/atomic_file.h"
 #include "io/session_file.h"
+#include "pipeline/conformance.h"
 #include "report/board_drawing.h"
 
 namespace lightstripe {
@@ -18,7 +19,7 @@ namespace {
 
 struct GenerateArguments {
   CommonOptions common;
-  std::string what, target;
+  std::string what, target, references;
 };
 
 /// The board as a drawing to scale; the format follows from the file's name.
@@ -37,6 +38,7 @@ std::string board_text(const GenerateArguments& arguments) {
 
 std::string generated(const GenerateArguments& arguments, const CLI::App& app) {
   if (arguments.what == "board") return board_text(arguments);
+  if (arguments.what == "conformance") return conformance_page(arguments.references);
   return arguments.what == "man-page" ? man_page(app, LIGHTSTRIPE_VERSION) : bash_completion(app);
 }
 
@@ -56,12 +58,16 @@ void add_generate_command(CLI::App& app, Command& run) {
   auto* command = app.add_subcommand(
       "generate", "a calibration board to print; the man page, or the completion script for bash");
   auto arguments = std::make_shared<GenerateArguments>();
-  command->add_option("what", arguments->what, "board, man-page or bash-completion")
+  command
+      ->add_option("what", arguments->what,
+                   "board, man-page, bash-completion, or conformance (docs/conformance.md)")
       ->required()
-      ->check(CLI::IsMember({"board", "man-page", "bash-completion"}));
+      ->check(CLI::IsMember({"board", "man-page", "bash-completion", "conformance"}));
   command->add_option("--target", arguments->target,
                       "the board: a session file, or its target as text, e.g. '{type: circles, grid: [7, 7], "
                       "pitch: 37.5}' (default: a checkerboard of 11 x 8 inner corners, 10 mm)");
+  command->add_option("--references", arguments->references,
+                      "conformance: folder with reference/conicity and data/miniprof");
   add_common_options(*command, arguments->common, "file (default: standard output)");
   command->callback(
       [arguments, &app, &run] { run = [arguments, &app] { return run_generate(*arguments, app); }; });

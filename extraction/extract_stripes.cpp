@@ -258,14 +258,16 @@ void finish_lines(const Run<T>& run, ScaleGroup& group) {
   ExtractionWorkspace& w = run.w;
   const DerivativeKernels& kernels = *group.kernels;
   smooth_measures(kernels, group.lines, w.values);
-  predict_errors(run.image, kernels, run.facts.noise.full, group.lines, w.values);
+  predict_errors(run.image, kernels, run.facts.noise.full, group.lines, w.errors);
   if (has_ridges(run.options.method)) {
     mend_line_ends(kernels, group.lines, w.bends.nodes);
     mend_junctions(kernels, group.lines);
   }
   if (run.options.curvature_correction && has_ridges(run.options.method))
     correct_curvature_bias(kernels, group.lines, w.bends);
-  if (run.options.smoothing) smooth_along_lines(kernels, group.lines, w.smoothing);
+  if (run.options.smoothing) smooth_along_lines(group.lines, w.smoothing);
+  // Last: neither bends nor smoothing may take a bias for scatter.
+  add_asymmetry(run.image, kernels, group.lines, w.asymmetry);
 }
 
 /// Nobody said how wide the stripes are, and the method can tell line by line.

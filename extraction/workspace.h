@@ -13,7 +13,9 @@
 #include "extraction/follow/own_scale.h"
 #include "extraction/kernels/kernels.h"
 #include "extraction/lines/curvature_bias.h"
+#include "extraction/lines/line_asymmetry.h"
 #include "extraction/lines/line_filter.h"
+#include "extraction/lines/line_noise.h"
 #include "extraction/lines/line_set.h"
 #include "extraction/lines/smoothing.h"
 
@@ -36,6 +38,8 @@ struct ExtractionWorkspace {
   DirectionGuidedWorkspace<std::uint16_t> direction_guided16;
   WholeImageWorkspace whole_image;
   GreyValueWorkspace grey_values;
+  ErrorWorkspace errors;
+  AsymmetryWorkspace asymmetry;
   SmoothingWorkspace smoothing;
   BendWorkspace bends;
   OwnScaleWorkspace<std::uint8_t> own_scale8;

@@ -102,13 +102,21 @@ std::vector<ViewTask> motion_tasks(const Session& session) {
   return tasks;
 }
 
+/// The laser's colour hides the board, or leaves nothing of it: boards are looked for in grey.
+Channel board_channel(const Session& session) {
+  const bool of_the_laser =
+      session.channel == Channel::kAuto || enum_name(session.channel).find('-') != std::string_view::npos;
+  return of_the_laser ? Channel::kGray : session.channel;
+}
+
 /// The board in a picture that may show the laser as well: of colour pictures other channels are tried where
 /// grey fails.
 BoardDetection find_board(const fs::path& file, const Session& session, Image8& image) {
-  const bool automatic = session.channel == Channel::kAuto || enum_name(session.channel).ends_with("-excess");
-  image = read_image(file, automatic ? Channel::kGray : session.channel);
+  image = read_image(file, board_channel(session));
   BoardDetection detection = detect_board(image, session.target);
-  if (detection.found || !automatic || !detection.board_like) return detection;
+  if (detection.found || session.channel == Channel::kGray || board_channel(session) != Channel::kGray ||
+      !detection.board_like)
+    return detection;
   for (const Channel channel : {Channel::kBlue, Channel::kGreen, Channel::kRed}) {
     const Image8 other = read_image(file, channel);
     if (other.pixels == image.pixels) break;  // a picture without colour
@@ -122,8 +130,7 @@ BoardDetection find_board(const fs::path& file, const Session& session, Image8& 
 std::string moved_within_pair(const ViewTask& task, const Session& session, const Image8& board,
                               const std::vector<Eigen::Vector2d>& corners) {
   constexpr double kMovedPx = 1;
-  const bool automatic = session.channel == Channel::kAuto || enum_name(session.channel).ends_with("-excess");
-  const Image8 laser = read_image(task.laser, automatic ? Channel::kGray : session.channel);
+  const Image8 laser = read_image(task.laser, board_channel(session));
   const auto shift = board_shift_px(laser, board, corners, session.target);
   if (!shift || *shift <= kMovedPx) return "";
   return fmt::format("the board moved by {:.1f} px between the picture without laser and that with it",
@@ -145,7 +152,26 @@ StripeOnBoard stripe_of(const ViewTask& task, const Session& session, const Imag
   return find_stripe_on_board(laser, dark.view(), corners, target, planes, extraction);
 }
 
-ViewResult observe_view(const ViewTask& task, const Session& session, const ExtractionOptions& extraction) {
+/// One channel for each sensor: what the session says, or the vote of its pictures.
+std::vector<Channel> sensor_channels(const Session& session, const std::vector<ViewTask>& tasks) {
+  std::vector<Channel> channels(session.sensors.size(), session.channel);
+  if (session.channel != Channel::kAuto) return channels;
+  for (std::size_t sensor = 0; sensor < channels.size(); ++sensor) {
+    std::vector<fs::path> lit;
+    for (const ViewTask& task : tasks) {
+      if (task.sensor != static_cast<int>(sensor) || task.motion || task.camera_only) continue;
+      if (!session.sensors[sensor].laser)
+        lit.push_back(task.board);
+      else if (!task.laser.empty())
+        lit.push_back(task.laser);
+    }
+    channels[sensor] = channel_of_pictures(lit);
+  }
+  return channels;
+}
+
+ViewResult observe_view(const ViewTask& task, const Session& session, Channel channel,
+                        const ExtractionOptions& extraction) {
   const SessionSensor& sensor = session.sensors[static_cast<std::size_t>(task.sensor)];
   ViewResult result;
   Image8 board;
@@ -166,8 +192,7 @@ ViewResult observe_view(const ViewTask& task, const Session& session, const Extr
   Target target = session.target;
   if (target.circle_mm == 0) target.circle_mm = detection.circle_mm;
   if (single || !task.laser.empty()) {
-    Channel channel = session.channel;
-    const Image8 laser = read_image(single ? task.board : task.laser, session.channel, &channel);
+    const Image8 laser = read_image(single ? task.board : task.laser, channel);
     if (laser.width != board.width || laser.height != board.height)
       throw Error(task.laser.string(),
                   fmt::format("is {} x {} px, its board image {} x {}", laser.width, laser.height,
@@ -334,11 +359,13 @@ SessionObservations observe_session(const Session& session, const ExtractionOpti
       tasks.push_back(std::move(task));
   for (auto& task : motion_tasks(session)) tasks.push_back(std::move(task));
 
+  const std::vector<Channel> channels = sensor_channels(session, tasks);
   std::vector<ViewResult> results(tasks.size());
   StepCounter steps("looking for boards", "images", static_cast<std::int64_t>(tasks.size()), progress);
   parallel_for(tasks.size(), [&](std::size_t i) {
     if (stop.stop_requested()) return;
-    results[i] = observe_view(tasks[i], session, extraction);
+    results[i] =
+        observe_view(tasks[i], session, channels[static_cast<std::size_t>(tasks[i].sensor)], extraction);
     steps.step();
   });
   if (stop.stop_requested())

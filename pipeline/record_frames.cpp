@@ -44,7 +44,7 @@ std::string row_of(const LiveFrame& frame, const std::string& file) {
       fmt::format("{},{},{},{},{},", frame.frame, frame.status == FrameStatus::kWhole ? file : "",
                   name_of(frame.status), frame.camera_ns, nanoseconds_of(frame.arrived));
   if (frame.encoder) append_shortest(row, *frame.encoder);
-  return row + "," + csv_cell(frame.reason) + "\n";
+  return row + "," + (frame.reason.empty() ? "" : csv_cell(frame.reason)) + "\n";
 }
 
 void count(const LiveFrame& frame, RecordSummary& summary) {

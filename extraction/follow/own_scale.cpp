@@ -13,14 +13,16 @@
 namespace lightstripe {
 namespace {
 
-/// Rungs of the ladder that a seed of one level may belong to: those of its own level and the next ones.
+/// Rungs of the ladder that a seed of one level may belong to: those of its own
+/// level and the next ones.
 struct RungRange {
   int first, last;
 };
 RungRange rungs_of(int level) { return {2 * level - 2, 2 * level + 4}; }
 
-/// Where the coarse levels look for lines: pixels that stand out over those 4 px to both sides, which meets
-/// stripes of a standard deviation of 1 to 2.5 px.
+/// Where the coarse levels look for lines: pixels that stand out over those 4
+/// px to both sides, which meets stripes of a standard deviation of 1 to 2.5
+/// px.
 constexpr int kSeedReach = 4;
 
 template <class T>
@@ -40,7 +42,8 @@ void collect_level(const OwnScaleSearch<T>& search, int level, SeedWorkspace& se
                        static_cast<std::int16_t>(s.rank)});
 }
 
-/// By falling contrast, then from fine to coarse levels; a counting sort keeps the order of equals.
+/// By falling contrast, then from fine to coarse levels; a counting sort keeps
+/// the order of equals.
 template <class T>
 void sort_seeds(OwnScaleWorkspace<T>& w) {
   std::array<std::size_t, 257> first{};
@@ -84,6 +87,7 @@ class LineFinder {
   double length(const Followed& line) const { return static_cast<double>(line.range.size()); }
   double height(const Followed& line) const;
   bool runs_beside_another(const Followed& line) const;
+  bool is_edge(const Followed& line) const;
   void keep_or_reject(const Followed& line);
   void try_seed(const ScaleSeed& seed);
 
@@ -180,7 +184,8 @@ void LineFinder<T>::take_back(const Followed& line) {
   following_.mask.relabel(line.checkpoint, line.first_label, labels_.current, ExclusionMask::kFree);
 }
 
-/// The line followed again at its own scale, where that differs and does not lose much of it.
+/// The line followed again at its own scale, where that differs and does not
+/// lose much of it.
 template <class T>
 std::optional<typename LineFinder<T>::Followed> LineFinder<T>::at_own_scale(const Followed& line, int x,
                                                                             int y) {
@@ -212,8 +217,34 @@ double LineFinder<T>::height(const Followed& line) const {
   return sum / length(line) / g.kernels->matched_strength();
 }
 
-/// In the glow of a line that is already found broad kernels see it once more: most of what they look at
-/// belongs to the other line.
+/// The light falls on one side only. The filter drops such a line later, by its
+/// own profiles; here it tells how much of the search is in vain.
+template <class T>
+bool LineFinder<T>::is_edge(const Followed& line) const {
+  constexpr double kAside = 2.6,
+                   kLeastFlanks = 0.3;  // sigma; of the smaller over the larger drop
+  const ScaleGroup& g = groups_.all[line.group];
+  const double reach = kAside * g.kernels->sigma;
+  const std::size_t step = std::max<std::size_t>(1, line.range.size() / 24);
+  std::size_t looked_at = 0, one_sided = 0;
+  const auto grey = [&](const StripePoint& p, double aside) {
+    const int x = std::clamp(static_cast<int>(std::lround(p.x + aside * p.normal_x)), 0,
+                             search_.image.width - 1),
+              y = std::clamp(static_cast<int>(std::lround(p.y + aside * p.normal_y)), 0,
+                             search_.image.height - 1);
+    return static_cast<double>(search_.image(x, y));
+  };
+  for (std::size_t i = line.range.begin; i < line.range.end; i += step) {
+    const StripePoint& p = g.lines.points[i];
+    const double top = grey(p, 0), left = top - grey(p, -reach), right = top - grey(p, reach);
+    ++looked_at;
+    one_sided += std::min(left, right) < kLeastFlanks * std::max(left, right) ? 1U : 0U;
+  }
+  return 2 * one_sided > looked_at;
+}
+
+/// In the glow of a line that is already found broad kernels see it once more:
+/// most of what they look at belongs to the other line.
 template <class T>
 bool LineFinder<T>::runs_beside_another(const Followed& line) const {
   const ScaleGroup& g = groups_.all[line.group];
@@ -241,17 +272,19 @@ void LineFinder<T>::keep_or_reject(const Followed& line) {
   const double least = search_.least_widths * full_width_of(groups_.all[line.group].kernels->sigma);
   if (length(line) >= search_.tuning.least_length * least && !runs_beside_another(line)) {
     ++lines_;
+    if (is_edge(line))
+      futile_ += search_.tuning.futile_line + length(line) / groups_.all[line.group].kernels->sigma;
     block(line, search_.tuning.blocked_by_line);
     strongest_ = std::max(strongest_, height(line) * std::min(1.0, length(line) / (3 * least)));
     return;
   }
-  futile_ += length(line) / groups_.all[line.group].kernels->sigma;
+  futile_ += search_.tuning.futile_line + length(line) / groups_.all[line.group].kernels->sigma;
   block(line, search_.tuning.blocked_by_rejected);
   take_back(line);
 }
 
-/// No line begins within so many sigma of this one any more, where its flanks would be followed over and
-/// over.
+/// No line begins within so many sigma of this one any more, where its flanks
+/// would be followed over and over.
 template <class T>
 void LineFinder<T>::block(const Followed& line, double sigmas) {
   const ScaleGroup& g = groups_.all[line.group];
@@ -270,7 +303,7 @@ void LineFinder<T>::block(const Followed& line, double sigmas) {
 template <class T>
 void LineFinder<T>::try_seed(const ScaleSeed& seed) {
   if (!search_.image.contains(seed.x, seed.y) ||
-      search_.image.laser_colour(seed.x, seed.y) < LaserColour::kSure)
+      search_.image.laser_colour(seed.x, seed.y) < LaserPlace::kSure)
     return;
   const std::uint16_t label = following_.mask(seed.x, seed.y);
   if (label != ExclusionMask::kFree && label != ExclusionMask::kDead) return;
@@ -279,7 +312,10 @@ void LineFinder<T>::try_seed(const ScaleSeed& seed) {
   cell = 1;
   const RungRange rungs = rungs_of(seed.level);
   const auto ridge = best_scale(w_.pyramid, kernels_, seed.x, seed.y, rungs.first, rungs.last);
-  if (!ridge) return;
+  if (!ridge) {
+    futile_ += search_.tuning.futile_seed;
+    return;
+  }
   auto line = follow(group_for(ridge->sigma, search_.tuning.shared_scale), seed.x, seed.y);
   if (line) line = at_own_scale(*line, seed.x, seed.y);
   if (line) keep_or_reject(*line);

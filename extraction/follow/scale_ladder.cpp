@@ -46,13 +46,21 @@ Derivatives derivatives_at(ImagePyramid<T>& pyramid, const DerivativeKernels& ke
       pyramid.border_window);
 }
 
+/// The kernels of one rung in a level of the pyramid. Coarse pixels blur by their own width, once in the
+/// image and once in the kernel that is integrated over them: so much less is left to the kernel.
+const DerivativeKernels& rung_kernels(KernelCache& cache, int rung, int level) {
+  const double bin = 1 << level, sigma = ScaleLadder::sigma(rung);
+  const double variance = sigma * sigma - (bin * bin - 1) / 6;
+  return cache.close_to(std::sqrt(std::max(variance, 0.5 * sigma * sigma)) / bin);
+}
+
 /// Strength of the line near a place at one rung, grey levels / px^2 of the whole image; 0 where there is
 /// none.
 template <class T>
 double strength_at(ImagePyramid<T>& pyramid, KernelCache& cache, double x, double y, int rung) {
   const int level = std::min(ScaleLadder::level(rung), pyramid.count - 1);
   const double bin = 1 << level, per_area = 1 / (bin * bin);
-  const DerivativeKernels& kernels = cache.nearest(ScaleLadder::sigma(rung) / bin);
+  const DerivativeKernels& kernels = rung_kernels(cache, rung, level);
   const double noise = pyramid.noise[static_cast<std::size_t>(level)] * kernels.curvature_gain;
   HessianAxes axes;
   // Once more from the ridge, which the seed may miss by about a kernel's width.
@@ -85,7 +93,7 @@ double line_response(ImagePyramid<T>& pyramid, KernelCache& cache, std::span<con
                      int rung) {
   const int level = std::min(ScaleLadder::level(rung), pyramid.count - 1);
   const double bin = 1 << level, sigma = ScaleLadder::sigma(rung);
-  const DerivativeKernels& kernels = cache.nearest(sigma / bin);
+  const DerivativeKernels& kernels = rung_kernels(cache, rung, level);
   const std::size_t step = std::max<std::size_t>(1, points.size() / kSamples);
   double sum = 0;
   for (std::size_t i = step / 2; i < points.size(); i += step) {
@@ -99,6 +107,11 @@ double line_response(ImagePyramid<T>& pyramid, KernelCache& cache, std::span<con
 
 const DerivativeKernels& KernelCache::nearest(double sigma) {
   constexpr double kPerOctave = 8;
+  return close_to(std::exp2(std::round(kPerOctave * std::log2(sigma)) / kPerOctave));
+}
+
+const DerivativeKernels& KernelCache::close_to(double sigma) {
+  constexpr double kPerOctave = 64;
   const auto index = static_cast<int>(std::lround(kPerOctave * std::log2(sigma)));
   const auto found = sets.find(index);
   if (found != sets.end()) return found->second;

@@ -18,12 +18,14 @@
 
 namespace lightstripe {
 
-/// Kernels of the scales met so far, kept from frame to frame; eight scales an octave, so that they are few.
+/// Kernels of the scales met so far, kept from frame to frame.
 struct KernelCache {
   std::map<int, DerivativeKernels> sets;
 
-  /// The kernels of the grid's scale nearest to `sigma` px.
+  /// The kernels nearest to `sigma` px of eight scales an octave, so that they are few.
   const DerivativeKernels& nearest(double sigma);
+  /// Those within 0.5 % of `sigma`, for the few rungs of the ladder.
+  const DerivativeKernels& close_to(double sigma);
 };
 
 /// The image, and means of 2 x 2, 4 x 4 and 8 x 8 of its pixels: there broad kernels cost as little as narrow

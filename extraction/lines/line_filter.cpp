@@ -46,7 +46,7 @@ struct Trial {
 
 /// Whether the stripe itself is there, unsmoothed: the kernels see a line's end up to sigma beyond it.
 bool is_lit(const Trial& t, const LineRange& r, std::size_t i) {
-  return t.contrast(r, i) >= 2.5 * kTopNoise * t.profile_noise && t.w.colour[i] != LaserColour::kNone;
+  return t.contrast(r, i) >= 2.5 * kTopNoise * t.profile_noise && t.w.colour[i] != LaserPlace::kNone;
 }
 
 /// Cuts unlit and bridged points off both ends. A lit end has half the contrast of the line a little further
@@ -97,7 +97,7 @@ bool has_bad_point(const Trial& t, const LineSet& lines, const LineRange& r, dou
   const double lit = 2.5 * kTopNoise * t.profile_noise;
   for (std::size_t i = r.begin; i < r.end; ++i)
     if (lines.points[i].width > width || static_cast<double>(t.w.measure.contrast[i]) < lit ||
-        t.w.colour[i] == LaserColour::kNone)
+        t.w.colour[i] == LaserPlace::kNone)
       return true;
   return false;
 }
@@ -198,7 +198,7 @@ LineFacts facts_of(Trial& t, const LineSet& lines, const LineRange& r) {
     const StripePoint& p = lines.points[i];
     bridged += (p.flags & kStripeBridged) != 0 ? 1U : 0U;
     odd += (p.flags & (kStripeBridged | kStripeAsymmetric)) != 0 ? 1U : 0U;
-    coloured += t.w.colour[i] != LaserColour::kNone ? 1U : 0U;
+    coloured += t.w.colour[i] != LaserPlace::kNone ? 1U : 0U;
     facts.mean_strength += p.strength;
   }
   const auto count = static_cast<double>(r.size());
@@ -326,7 +326,7 @@ void keep_if(LineSet& lines, std::vector<LineFacts>& facts, const Test& test) {
 
 template <class T>
 void look_at_colours(ImageView<T> image, const LineSet& lines, std::vector<std::uint8_t>& colour) {
-  colour.assign(lines.points.size(), LaserColour::kSure);
+  colour.assign(lines.points.size(), LaserPlace::kSure);
   if (image.where == nullptr) return;
   for (std::size_t i = 0; i < colour.size(); ++i) {
     const StripePoint& p = lines.points[i];

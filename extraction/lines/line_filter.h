@@ -48,7 +48,7 @@ struct LineFilterWorkspace {
   std::vector<float> scratch;
   std::vector<BadStretch> stretches;
   EdgeCrowd edges;                   ///< added up over the scales of one image
-  std::vector<std::uint8_t> colour;  ///< one a point: LaserColour
+  std::vector<std::uint8_t> colour;  ///< one a point: LaserPlace
   std::vector<LineRange> kept;
 };
 

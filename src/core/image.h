@@ -12,7 +12,7 @@
 namespace lightstripe {
 
 /// Levels of an image's `where`.
-struct LaserColour {
+struct LaserPlace {
   static constexpr std::uint8_t kNone = 0, kFaint = 1, kSure = 2;
 };
 
@@ -24,7 +24,7 @@ struct ImageView {
   int width = 0;
   int height = 0;
   std::ptrdiff_t stride = 0;
-  /// Where light of the laser's colour was seen, one byte a pixel with the same stride (LaserColour); null:
+  /// Where light of the laser's colour was seen, one byte a pixel with the same stride (LaserPlace); null:
   /// nobody knows, it may be anywhere.
   const std::uint8_t* where = nullptr;
 
@@ -38,7 +38,7 @@ struct ImageView {
   }
   /// How sure the laser's colour is at a pixel; sure everywhere in a picture without colour.
   std::uint8_t laser_colour(int x, int y) const {
-    return where == nullptr ? LaserColour::kSure : where[y * stride + x];
+    return where == nullptr ? LaserPlace::kSure : where[y * stride + x];
   }
 };
 

@@ -107,6 +107,12 @@ Channel count_votes(std::span<const Channel> votes) {
   return best;
 }
 
+Channel channel_of_pictures(const std::vector<fs::path>& files) {
+  return decide_channel(static_cast<std::int64_t>(files.size()), [&files](std::int64_t i, Channel* chosen) {
+    read_image(files[static_cast<std::size_t>(i)], Channel::kAuto, chosen);
+  });
+}
+
 std::unique_ptr<FrameSource> open_frames(const fs::path& base, const std::string& pattern, Channel channel) {
   FileNames files = list_file_names(base, pattern);
   const fs::path first = files.folder / files.names.front();

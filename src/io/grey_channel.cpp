@@ -72,7 +72,7 @@ Image8 image8_of(const cv::Mat& grey) { return image_of<std::uint8_t>(grey); }
 Image16 image16_of(const cv::Mat& grey) { return image_of<std::uint16_t>(grey); }
 
 void check_grey_channel(Channel channel, const std::string& file) {
-  if (is_excess(channel) || is_laser(channel))
+  if (is_excess(channel))
     throw Error(file, "is a grey picture and has no colour excess", "set channel: auto or gray");
 }
 

@@ -66,6 +66,10 @@ Image8 read_image(const std::filesystem::path& path, Channel channel = Channel::
 /// As read_image; with kAuto also tells which channel it took, so that a sequence can stay with it.
 Image8 read_image(const std::filesystem::path& path, Channel channel, Channel* chosen);
 
+/// What most of up to eight of the pictures, spread over all, are read as with kAuto; those that show no
+/// colour abstain. One choice for a session, so that every picture is measured alike.
+Channel channel_of_pictures(const std::vector<std::filesystem::path>& files);
+
 /// As read_image, but 16-bit grey pictures keep their bits (colour is reduced to 8). With kAuto `chosen`, if
 /// not null, tells which channel it took.
 GreyImage read_grey_image(const std::filesystem::path& path, Channel channel, Channel* chosen = nullptr);

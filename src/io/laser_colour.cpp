@@ -66,7 +66,7 @@ struct LaserMasks {
 LaserMasks masks_of(const ColourRise& rise, const cv::Mat& plane) {
   LaserMasks m;
   m.sure = rise.level >= std::max({0.2 * rise.top, 5.0 * rise.noise, 6.0});
-  m.faint = rise.level >= std::max({0.05 * rise.top, 3.0 * rise.noise, 3.0});
+  m.faint = rise.level >= std::max({0.02 * rise.top, 3.0 * rise.noise, 3.0});
   const cv::Mat clipped = plane >= kClipped;
   cv::Mat reached;
   cv::dilate(m.sure, reached, square(kCoreReach));
@@ -86,13 +86,13 @@ cv::Mat filled_rise(const ColourRise& rise, const cv::Mat& core) {
   return filled;
 }
 
-constexpr int kBumpReach = 6;      // px to both sides of a bump, where it must have fallen
 constexpr int kTrackJump = 3;      // px from row to row along one line
 constexpr int kShortestRun = 6;    // rows that a run must have to count
 constexpr int kMostContrast = 60;  // grey levels; more colour does not make it more of a line
 
-/// Length times contrast of the runs of rows whose strongest bumps lie one below the other.
-double track_score(const cv::Mat& filled, const cv::Mat& plane, double least) {
+/// Length times contrast of the runs of rows whose strongest bumps lie one below the other; a bump has fallen
+/// `reach` px to both sides.
+double track_score(const cv::Mat& filled, const cv::Mat& plane, double least, int reach) {
   double score = 0, run_score = 0;
   int run = 0, last_x = -100, last_bump = 0;
   const auto end_run = [&] {
@@ -104,8 +104,8 @@ double track_score(const cv::Mat& filled, const cv::Mat& plane, double least) {
     const auto* rise = filled.ptr<std::int16_t>(y);
     const auto* raw = plane.ptr<std::uint8_t>(y);
     int best = 0, best_x = -100;
-    for (int x = kBumpReach; x < filled.cols - kBumpReach; ++x) {
-      const int bump = rise[x] - std::max(rise[x - kBumpReach], rise[x + kBumpReach]);
+    for (int x = reach; x < filled.cols - reach; ++x) {
+      const int bump = rise[x] - std::max(rise[x - reach], rise[x + reach]);
       if (bump <= best) continue;
       best = bump;
       best_x = x;
@@ -113,7 +113,7 @@ double track_score(const cv::Mat& filled, const cv::Mat& plane, double least) {
     bool coloured = best >= least;
     if (coloured) {
       // Demosaicing gives the edges of grey things coloured fringes, faint against the edge itself.
-      const auto [low, high] = std::minmax_element(raw + best_x - kBumpReach, raw + best_x + kBumpReach + 1);
+      const auto [low, high] = std::minmax_element(raw + best_x - reach, raw + best_x + reach + 1);
       coloured = 5 * best >= *high - *low;
     }
     if (!coloured || std::abs(best_x - last_x) > kTrackJump) end_run();
@@ -167,7 +167,7 @@ std::vector<std::uint8_t> where_laser_colour(const ColourPlanes& bgr, std::size_
   for (int y = 0; y < sure.rows; ++y) {
     const auto *s = sure.ptr<std::uint8_t>(y), *f = faint.ptr<std::uint8_t>(y);
     for (int x = 0; x < sure.cols; ++x)
-      where.push_back(s[x] != 0 ? LaserColour::kSure : f[x] != 0 ? LaserColour::kFaint : LaserColour::kNone);
+      where.push_back(s[x] != 0 ? LaserPlace::kSure : f[x] != 0 ? LaserPlace::kFaint : LaserPlace::kNone);
   }
   return where;
 }
@@ -192,8 +192,10 @@ LaserVote vote_for_laser(const ColourPlanes& bgr) {
     const LaserMasks masks = masks_of(rise, small.at(plane));
     const double least = std::max({kLeastBump, 6.0 * rise.noise, kLeastShare * largest});
     const cv::Mat filled = filled_rise(rise, masks.core);
-    const double score = std::max(track_score(filled, small.at(plane), least),
-                                  track_score(filled.t(), small.at(plane).t(), least));
+    double score = 0;
+    for (const int reach : {6, 16})
+      score = std::max({score, track_score(filled, small.at(plane), least, reach),
+                        track_score(filled.t(), small.at(plane).t(), least, reach)});
     if (score < kLeastScore || score <= best.score) continue;
     const int clipped = cv::countNonZero(masks.core), lit = cv::countNonZero(masks.sure | masks.core);
     best = {static_cast<int>(plane), score, clipped > kClippedShare * lit};

@@ -21,7 +21,7 @@ struct ColourRise {
 };
 ColourRise colour_rise(const ColourPlanes& bgr, std::size_t plane);
 
-/// One LaserColour level a pixel. Pixels that rise by a fifth of the top are sure, those that rise out of the
+/// One LaserPlace level a pixel. Pixels that rise by a fifth of the top are sure, those that rise out of the
 /// noise faint; a clipped white core belongs to the coloured rim around it; both are widened by 4 px.
 std::vector<std::uint8_t> where_laser_colour(const ColourPlanes& bgr, std::size_t plane);
 

@@ -129,6 +129,23 @@ std::map<std::string, Rigid3> read_image_poses(const std::filesystem::path& path
   return poses;
 }
 
+namespace {
+
+/// "bridged;saturated", empty where there is nothing to say.
+void append_flags(std::string& out, std::uint8_t flags) {
+  constexpr std::pair<StripeFlag, std::string_view> kWords[] = {
+      {kStripeBridged, "bridged"}, {kStripeSaturated, "saturated"}, {kStripeAsymmetric, "asymmetric"}};
+  bool first = true;
+  for (const auto& [flag, word] : kWords) {
+    if ((flags & flag) == 0) continue;
+    if (!first) out.push_back(';');
+    out.append(word);
+    first = false;
+  }
+}
+
+}  // namespace
+
 void append_stripes(std::string& out, std::string_view image, const std::vector<Stripe>& stripes) {
   const std::string image_cell = csv_cell(image);
   for (std::size_t line = 0; line < stripes.size(); ++line) {
@@ -141,7 +158,8 @@ void append_stripes(std::string& out, std::string_view image, const std::vector<
       append_cell(out, point.normal_y, 7);
       append_cell(out, point.width, 4);
       append_cell(out, point.strength, 4);
-      append_decimals(out, point.sigma_px, 5);
+      append_cell(out, point.sigma_px, 5);
+      append_flags(out, point.flags);
       out.push_back('\n');
     }
   }

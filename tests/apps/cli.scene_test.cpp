@@ -93,7 +93,7 @@ TEST_F(Cli, ExtractWritesTableAndOverlay) {
                                       " --overlay " + quoted(out_ / "overlay"));
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const std::string rows = text_of(out_ / "stripes.csv");
-  EXPECT_THAT(rows, StartsWith("image,line,x,y,normal_x,normal_y,width,strength,sigma_px\n" +
+  EXPECT_THAT(rows, StartsWith("image,line,x,y,normal_x,normal_y,width,strength,sigma_px,flags\n" +
                                (data() / "scan/solo/0003.png").string() + ",0,"));
   EXPECT_TRUE(fs::exists(out_ / "overlay/0003.png"));
 }

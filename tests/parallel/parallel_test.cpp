@@ -17,7 +17,7 @@ TEST(ParallelFor, CallsEachIndexOnce) {
   std::vector<int> calls(1000);
   parallel_for(calls.size(), [&](std::size_t i) { ++calls[i]; });
   EXPECT_EQ(calls, std::vector<int>(1000, 1));
-  parallel_for(calls.size(), 3, [&](std::size_t i) { ++calls[i]; });
+  parallel_for(calls.size(), 2, [&](std::size_t i) { ++calls[i]; });
   EXPECT_EQ(calls, std::vector<int>(1000, 2));
   parallel_for(0, [&](std::size_t) { FAIL(); });
 }

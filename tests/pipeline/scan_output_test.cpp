@@ -78,12 +78,12 @@ TEST_F(ScanOutputFiles, RefusesToGoOnWithAnotherRun) {
     ScanOutput killed(options());
     write(killed, 0, 3);
   }
-  EXPECT_THROW(ScanOutput(options("other", true)), Error);
+  EXPECT_THROW((ScanOutput{options("other", true)}), Error);
 }
 
 TEST_F(ScanOutputFiles, TwoRunsDoNotWriteTheSameFiles) {
   const ScanOutput first(options());
-  EXPECT_THROW(ScanOutput(options()), Error);
+  EXPECT_THROW(ScanOutput{options()}, Error);
 }
 
 TEST(ScanJournal, ALastLineThatWasCutOffDoesNotCount) {
