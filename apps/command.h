@@ -43,5 +43,7 @@ void add_conicity_command(CLI::App& app, Command& run);
 void add_verify_command(CLI::App& app, Command& run);
 void add_bench_command(CLI::App& app, Command& run);
 void add_generate_command(CLI::App& app, Command& run);
+void add_view_command(CLI::App& app, Command& run);
+void add_design_command(CLI::App& app, Command& run);
 
 }  // namespace lightstripe

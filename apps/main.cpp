@@ -45,6 +45,8 @@ int run(int argc, char** argv) {
   lightstripe::add_measure_command(app, command);
   lightstripe::add_conicity_command(app, command);
   lightstripe::add_bench_command(app, command);
+  lightstripe::add_view_command(app, command);
+  lightstripe::add_design_command(app, command);
   lightstripe::add_generate_command(app, command);
   if (argc < 2) {
     fmt::print(stderr, "{}", app.help());

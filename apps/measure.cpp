@@ -9,11 +9,13 @@
 #include "apps/command.h"
 #include "apps/options.h"
 #include "apps/progress.h"
+#include "apps/table_style.h"
 #include "core/error.h"
 #include "io/atomic_file.h"
 #include "io/images.h"
 #include "pipeline/features_job.h"
 #include "pipeline/measurement_table.h"
+#include "report/cloud_deviation.h"
 #include "report/features_report.h"
 #include "report/measure_report.h"
 #include "report/section_drawing.h"
@@ -27,7 +29,8 @@ struct MeasureArguments {
   CommonOptions common;
   MeasureJob job;    ///< what needs no merging is parsed into it
   std::string kind;  ///< rail, wheel or features
-  std::string features, limits_file, report, scan;
+  std::string features, limits_file, report, scan, view;
+  TableStyle style = TableStyle::kPlain;
   std::vector<std::int64_t> plot;
   Overrides rail, wheel, registration, limit;
 };
@@ -99,8 +102,14 @@ int run_measure(const MeasureArguments& arguments) {
   const MeasureJob job = job_of(arguments);
   const MeasureResult result = measure(job, progress_line(arguments.common.quiet));
   write_plots(arguments, job, result);
+  if (!job.table.empty()) apply_table_style(job.table, arguments.style);
+  if (!arguments.view.empty())
+    write_file(arguments.view,
+               cloud_view_html(view_of_sections(job, result, arguments.view, arguments.scan)));
   if (!arguments.report.empty())
-    write_file(arguments.report, measure_report_html(job, result, arguments.report, arguments.scan));
+    write_file(arguments.report, measure_report_html(job, result,
+                                                     {arguments.report, arguments.scan,
+                                                      link_to(arguments.view, arguments.report)}));
   summarise(arguments, job, result);
   if (!result.usable()) return not_usable(result.not_usable);
   if (result.num_ok == 0)
@@ -121,6 +130,7 @@ int run_features(const MeasureArguments& arguments) {
   if (!arguments.common.output.empty()) job.table = arguments.common.output;
   job.threads = arguments.common.threads;
   const FeaturesResult result = measure_features_job(job);
+  if (!job.table.empty()) apply_table_style(job.table, arguments.style);
   if (!arguments.report.empty()) write_file(arguments.report, features_report_html(job, result));
   for (std::size_t i = 0; i < result.along.size(); ++i) {
     const Estimate& estimate = result.along[i];
@@ -172,6 +182,10 @@ void add_measure_command(CLI::App& app, Command& run) {
   command->add_option("--scan", arguments->scan, "scan file: the report links to its pictures");
   command->add_option("--limits", arguments->limits_file, "file of limits (YAML)");
   command->add_option("--report", arguments->report, "report to look at (HTML)");
+  command->add_option(
+      "--view", arguments->view,
+      "page that shows the sections in 3D, coloured by their deviation from the nominal (HTML)");
+  add_table_style_option(*command, arguments->style);
   command->add_option("--plot", arguments->plot,
                       "draws the section of this frame (PNG beside the table); may be repeated");
   command->add_option("--export", arguments->job.export_folder,
@@ -181,7 +195,8 @@ void add_measure_command(CLI::App& app, Command& run) {
   command->add_option("--export-format", arguments->job.export_format, "miniprof or simpack [miniprof]")
       ->transform(CLI::CheckedTransformer(formats));
   command->add_option("--rig", arguments->job.rig, "rig file, for the diameter's predicted error");
-  add_common_options(*command, arguments->common, "table of measurements (default: measurements.csv)");
+  add_common_options(*command, arguments->common,
+                     "table of measurements, .csv or .xlsx (default: measurements.csv)");
   add_field_options<RailOptions>(*command, "", arguments->rail);
   add_field_options<WheelOptions>(*command, "wheel.", arguments->wheel);
   add_field_options<RegistrationOptions>(*command, "registration.", arguments->registration);

@@ -20,7 +20,7 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME liblightstripe-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
-    "libeigen3-dev, libfmt-dev, libyaml-cpp-dev, libopencv-dev, libceres-dev, libtbb-dev, libhwy-dev, libtiff-dev, pkg-config")
+    "libeigen3-dev, libfmt-dev, nlohmann-json3-dev, libssl-dev, libxlsxwriter-dev, libyaml-cpp-dev, libopencv-dev, libceres-dev, libpcl-dev, libtbb-dev, libhwy-dev, libtiff-dev, pkg-config")
 if(LIGHTSTRIPE_ARAVIS)
   string(APPEND CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS ", libaravis-dev")
 endif()

@@ -17,7 +17,7 @@ TYPE = re.compile(r"^(?:struct|class|enum class) (\w+)(?: final)?(?:\s*:[^{;]*)?
 # The direction-guided core needs the standard library and Highway only.
 NO_OPENCV_FILES = re.compile(r"extraction/(follow|kernels|image|lines)/")
 TESTS_OF_EVERYTHING = {"apps", "fuzz", "consumer"}
-GENERATED = {"io/embedded_profiles.h", "tests/test_paths.h"}  # by CMake
+GENERATED = {"io/embedded_profiles.h", "report/embedded_pages.h", "tests/test_paths.h"}  # by CMake
 BEGIN, END = "<!-- layers: begin -->\n", "<!-- layers: end -->\n"
 
 

@@ -1,29 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The lightstripe authors
 // SPDX-License-Identifier: Apache-2.0
 // Draws calibration.html from its JSON with Chart.js and three.js.
-'use strict';
-const data = JSON.parse(document.getElementById('data').textContent);
-const at = id => document.getElementById(id);
-const colors = ['#2563eb', '#ea580c', '#16a34a', '#9333ea', '#0891b2', '#be123c'];
-
-function element(tag, text, parent, className) {
-  const e = document.createElement(tag);
-  if (text !== undefined) e.textContent = text;
-  if (className) e.className = className;
-  if (parent) parent.appendChild(e);
-  return e;
-}
-
-function table(parent, header, rows) {
-  const t = element('table', undefined, parent);
-  const head = element('tr', undefined, t);
-  header.forEach(h => element('th', h, head));
-  rows.forEach(r => {
-    const line = element('tr', undefined, t);
-    r.forEach(c => element('td', c, line, typeof c === 'string' && isNaN(Number(c)) ? 'text' : ''));
-  });
-}
-
 const signed = v => (Math.round(1000 * v) / 1000 || 0).toFixed(3);  // no -0.000
 // At least two digits that count: 0.0000 would be a promise.
 const mm = (v, digits = 4) => !(v > 0) ? '-' : v >= 10 ** (1 - digits) ? v.toFixed(digits) : v.toPrecision(2);
@@ -227,5 +204,5 @@ data.used.forEach(p => picture(at('used'), p));
 if (data.rejected.length > 3) addFilter('rejected');
 if (data.used.length > 3) addFilter('used');
 if (!Object.keys(data.sigma).length) hide('sigma_box');
-table(at('sigma'), ['parameter', '1 sigma'], Object.entries(data.sigma).map(([k, v]) => [k, v.toPrecision(3)]));
+table(at('sigma'), ['parameter', '1 sigma'], Object.entries(data.sigma).map(([k, v]) => [k, v === null ? '-' : v.toPrecision(3)]));
 document.body.dataset.ready = 'yes';
