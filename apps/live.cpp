@@ -9,9 +9,9 @@
 #include <memory>
 
 #include "apps/command.h"
-#include "apps/options.h"
 #include "apps/interrupt.h"
 #include "apps/live_options.h"
+#include "apps/options.h"
 #include "apps/status_line.h"
 #include "core/error.h"
 #include "io/rig_file.h"
