@@ -161,7 +161,8 @@ void add_rig(py::module_& module) {
         return fmt::format("<lightstripe.Rig of {}, {} motion>", names,
                            moves ? enum_name(rig.motion.type) : "no");
       });
-  module.def("read_rig", &read_rig, py::arg("path"), "rig.yaml to a Rig");
+  module.def(
+      "read_rig", [](const fs::path& path) { return read_rig(path); }, py::arg("path"), "rig.yaml to a Rig");
 }
 
 void add_extraction(py::module_& module) {

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/random.h"
+#include "extraction/kernels/kernels.h"
 #include "extraction/lines/smoothing.h"
 
 namespace lightstripe {
