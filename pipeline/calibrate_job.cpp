@@ -42,7 +42,8 @@ std::vector<fs::path> inputs_of(const CalibrateJob& job) {
   for (const SessionSensor& sensor : session.sensors) {
     add(sensor.board);
     if (sensor.laser) add(*sensor.laser);
-    if (sensor.camera) inputs.push_back(session.folder / *sensor.camera);
+    if (sensor.camera)  // a rig names its sensor behind a '#'
+      inputs.push_back(session.folder / sensor.camera->substr(0, sensor.camera->rfind('#')));
   }
   if (session.motion) {
     add(session.motion->board);

@@ -12,7 +12,7 @@ namespace lightstripe {
 
 struct Page {
   std::string title;
-  std::string_view name;                    ///< report/pages/<name>.html and <name>.js
+  std::string_view name;                    ///< report/pages/NAME.html and NAME.js
   std::vector<std::string_view> libraries;  ///< as page_text() names them
   nlohmann::json data;                      ///< what the script finds as `data`
   std::string_view binary = {};             ///< base64 text for the element #binary; empty: none
