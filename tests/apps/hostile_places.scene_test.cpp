@@ -125,7 +125,9 @@ TEST_F(HostilePlaces, ADiskThatFillsUpLeavesNoHalfFile) {
     // fit on the disk must not cost the rig.
     const bool keeps_rig = command.starts_with("calibrate");
     EXPECT_EQ(disk.final_files(), keeps_rig ? 2 : 0) << command;
-    if (keeps_rig) EXPECT_EQ(read_rig(disk / "rig.yaml").sensors.size(), 1U);
+    if (keeps_rig) {
+      EXPECT_EQ(read_rig(disk / "rig.yaml").sensors.size(), 1U);
+    }
     disk.clear();
   }
 }
