@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "calib/board/marker_cells.h"
+#include "report/page.h"
 
 namespace lightstripe {
 namespace {
@@ -83,17 +84,6 @@ std::string description(const Target& t, const std::string& aprilgrid_file) {
                      square, marker);
 }
 
-std::string escaped(const std::string& text) {
-  std::string result;
-  for (const char c : text) {
-    if (c == '<' || c == '&')
-      result += c == '<' ? "&lt;" : "&amp;";
-    else
-      result += c;
-  }
-  return result;
-}
-
 /// A circle of diameter 2 r by four Bezier curves (error 0.03 % of r).
 std::string pdf_disc(double x, double y, double r) {
   const double k = 0.5522847498 * r;
@@ -162,9 +152,10 @@ std::string to_svg(const BoardDrawing& d) {
   for (const auto& c : d.discs)
     text += fmt::format("<circle cx=\"{:.4f}\" cy=\"{:.4f}\" r=\"{:.4f}\"/>\n", c.x, c.y, 0.5 * c.diameter);
   for (std::size_t i = 0; i < d.lines.size(); ++i)
-    text += fmt::format(
-        "<text x=\"5\" y=\"{:.2f}\" font-family=\"sans-serif\" font-size=\"{:g}\">{}</text>\n",
-        d.height_mm - kLineMm * static_cast<double>(d.lines.size() - i) + 1, kTextMm, escaped(d.lines[i]));
+    text +=
+        fmt::format("<text x=\"5\" y=\"{:.2f}\" font-family=\"sans-serif\" font-size=\"{:g}\">{}</text>\n",
+                    d.height_mm - kLineMm * static_cast<double>(d.lines.size() - i) + 1, kTextMm,
+                    html_escaped(d.lines[i]));
   return text + "</svg>\n";
 }
 

@@ -10,6 +10,7 @@
 #include <numbers>
 
 #include "report/line_chart.h"
+#include "report/page.h"
 #include "report/page_text.h"
 
 namespace lightstripe {
@@ -50,7 +51,7 @@ std::string contact_chart(const Conicity& conicity, const char* title, const cha
 std::string facts(const ConicityJob& job, const Conicity& conicity) {
   std::string out = "<table>";
   const auto row = [&](const std::string& what, const std::string& value) {
-    out += fmt::format("<tr><td>{}</td><td>{}</td></tr>", what, escaped(value));
+    out += fmt::format("<tr><td>{}</td><td>{}</td></tr>", what, html_escaped(value));
   };
   const auto both = [](const std::string& left, const std::string& right) {
     return right.empty() || right == left ? left : left + " (left), " + right + " (right)";

@@ -10,6 +10,7 @@
 #include <numbers>
 
 #include "report/line_chart.h"
+#include "report/page.h"
 #include "report/page_text.h"
 
 namespace lightstripe {
@@ -25,7 +26,7 @@ std::string row_of(const std::string& name, const QuantityRecipe* recipe, int kn
   return fmt::format(
       "<tr><td>{}</td><td>{}</td><td>{:.4f}</td><td>{:.4f}</td><td>{:.4f}</td><td>{:.4f}</td><td>{}</"
       "td><td>{}</td></tr>",
-      escaped(name), known, low, mean, high, sigma, recipe ? limit(recipe->min) : "",
+      html_escaped(name), known, low, mean, high, sigma, recipe ? limit(recipe->min) : "",
       recipe ? limit(recipe->max) : "");
 }
 
@@ -45,7 +46,7 @@ std::string table_of(const FeaturesResult& result) {
       out += row_of(result.file.measurements[i].name, &result.file.measurements[i], known, low, sum / known,
                     high, sigma / known);
     else
-      out += fmt::format("<tr><td>{}</td><td>0</td></tr>", escaped(result.file.measurements[i].name));
+      out += fmt::format("<tr><td>{}</td><td>0</td></tr>", html_escaped(result.file.measurements[i].name));
   }
   return out + "</table>";
 }
@@ -54,9 +55,9 @@ std::string along_of(const FeaturesResult& result) {
   std::string out;
   for (std::size_t i = 0; i < result.along.size(); ++i) {
     const Estimate& e = result.along[i];
-    out += "<p>" + escaped(result.file.along[i].name) + ": " +
+    out += "<p>" + html_escaped(result.file.along[i].name) + ": " +
            (e.value ? fmt::format("<b>{:.4f}</b> mm, sigma {:.4f}", *e.value, e.sigma.value_or(0))
-                    : escaped(e.reason)) +
+                    : html_escaped(e.reason)) +
            "</p>";
   }
   return out;
@@ -70,8 +71,8 @@ std::string chart_of(const FeaturesResult& result, std::size_t i) {
     line.half.push_back(2 * e.sigma.value_or(0));
   }
   const QuantityRecipe& recipe = result.file.measurements[i];
-  return line_chart_svg({escaped(recipe.name), "travel", "", {line}, recipe.max ? recipe.max : recipe.min},
-                        420, 240);
+  return line_chart_svg(
+      {html_escaped(recipe.name), "travel", "", {line}, recipe.max ? recipe.max : recipe.min}, 420, 240);
 }
 
 /// A feature as a thin line over the section.
@@ -100,16 +101,16 @@ std::string section_of_row(const FeaturesResult& result, std::size_t row) {
   LineChart chart{fmt::format("frame {}", result.rows[row].frame), "u, mm", "v, mm", {points}, {}};
   for (std::size_t i = 0; i < result.file.features.size(); ++i)
     if (result.rows[row].features[i].known())
-      chart.lines.push_back(drawn(result.rows[row].features[i], escaped(result.file.features[i].name)));
+      chart.lines.push_back(drawn(result.rows[row].features[i], html_escaped(result.file.features[i].name)));
   return line_chart_svg(chart, 620, 360);
 }
 
 }  // namespace
 
 std::string features_report_html(const FeaturesJob& job, const FeaturesResult& result) {
-  std::string body =
-      fmt::format("<h1>Features</h1><p>{}, {}: {} sections, {} complete.</p>", escaped(job.profiles.string()),
-                  escaped(job.features.string()), result.rows.size(), result.num_complete);
+  std::string body = fmt::format("<h1>Features</h1><p>{}, {}: {} sections, {} complete.</p>",
+                                 html_escaped(job.profiles.string()), html_escaped(job.features.string()),
+                                 result.rows.size(), result.num_complete);
   body += table_of(result) + along_of(result) + "<div class=\"strip\">";
   for (std::size_t i = 0; i < result.file.measurements.size(); ++i)
     body += "<figure>" + chart_of(result, i) + "</figure>";

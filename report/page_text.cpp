@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "report/page_text.h"
 
+#include "report/page.h"
+
 namespace lightstripe {
 namespace {
 
@@ -17,27 +19,10 @@ constexpr const char* kStyle =
 
 }  // namespace
 
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '<')
-      out += "&lt;";
-    else if (c == '>')
-      out += "&gt;";
-    else if (c == '&')
-      out += "&amp;";
-    else if (c == '"')
-      out += "&quot;";
-    else
-      out += c;
-  }
-  return out;
-}
-
 std::string page_style() { return kStyle; }
 
 std::string page(const std::string& title, const std::string& body) {
-  return "<!doctype html><html lang=\"en\"><head><meta charset=\"utf-8\"><title>" + escaped(title) +
+  return "<!doctype html><html lang=\"en\"><head><meta charset=\"utf-8\"><title>" + html_escaped(title) +
          "</title><style>" + kStyle + "</style></head><body>" + body + "</body></html>\n";
 }
 

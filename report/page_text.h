@@ -7,9 +7,6 @@
 
 namespace lightstripe {
 
-/// Text with <, >, & and " made harmless.
-std::string escaped(const std::string& text);
-
 /// The style sheet of our pages.
 std::string page_style();
 
