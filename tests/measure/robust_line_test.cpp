@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/random.h"
+#include "core/robust.h"
 
 namespace lightstripe {
 namespace {
@@ -70,12 +71,6 @@ TEST(FitPolynomial, OutliersOfEightSigmaCountNothing) {
   const auto fit = fit_polynomial(samples, 0, 1e-4);
   ASSERT_TRUE(fit);
   EXPECT_LT(std::abs(fit->value), 0.002);
-}
-
-TEST(MedianOf, AnEvenCountIsTheMeanOfTheMiddleTwo) {
-  EXPECT_EQ(median_of({4, 1}), 2.5);
-  EXPECT_EQ(median_of({9, 1, 3, 5}), 4);
-  EXPECT_EQ(median_of({9, 1, 3}), 3);
 }
 
 }  // namespace
