@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "core/random.h"
-#include "core/robust.h"
 
 namespace lightstripe {
 namespace {
