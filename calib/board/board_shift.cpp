@@ -86,7 +86,7 @@ std::optional<double> board_shift_px(ImageView8 laser, ImageView8 board, const s
                                      const Target& target) {
   const Patches patches = compare_patches(as_mat(laser), as_mat(board), corners);
   if (patches.visible < kMinPatches) return std::nullopt;
-  if (2 * patches.shifts_px.size() > patches.visible) return upper_median(patches.shifts_px);
+  if (2 * patches.shifts_px.size() > patches.visible) return upper_median(std::vector(patches.shifts_px));
   // Something else stands there: the board, elsewhere?
   const BoardDetection again = detect_board(laser, target);
   if (!again.found) return std::nullopt;
