@@ -85,7 +85,7 @@ void filter_groups(const Run<T>& run, double width_slack) {
   }
   // Gleams with the laser off; a faint line has to be long. The range of 16-bit pixels is not known.
   const double least_height = width_slack > 1 && sizeof(T) == 1 ? 20.0 : 0.0;
-  drop_faint_lines(w.filtered, run.facts.noise.seen, run.options.lines, width_slack, least_height,
+  drop_faint_lines(w.filtered, run.options.lines, {run.facts.noise.seen, width_slack, least_height},
                    w.tests.edges);
 }
 

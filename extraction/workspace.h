@@ -13,6 +13,7 @@
 #include "extraction/follow/own_scale.h"
 #include "extraction/kernels/kernels.h"
 #include "extraction/lines/curvature_bias.h"
+#include "extraction/lines/faint_lines.h"
 #include "extraction/lines/line_asymmetry.h"
 #include "extraction/lines/line_filter.h"
 #include "extraction/lines/line_noise.h"
