@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The lightstripe authors
 // SPDX-License-Identifier: Apache-2.0
-// The lines of one picture judged against each other: faint ones are dropped, unless they go on where a strong
-// one ends.
+// The lines of one picture judged against each other: faint ones are dropped, unless they go on where a
+// strong one ends.
 #include "extraction/lines/faint_lines.h"
 
 #include <gtest/gtest.h>
