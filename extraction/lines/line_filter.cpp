@@ -282,6 +282,7 @@ void filter_lines(ImageView<T> image, const DerivativeKernels& kernels, double n
       kernels, noise, options, workspace, full_width_of(kernels.sigma), width_slack, image.where != nullptr};
   measure_points(image, kernels, noise, lines, workspace.measure);
   workspace.colour.assign(lines.points.size(), LaserPlace::kSure);
+  workspace.tried += lines.lines.size();
   workspace.kept.clear();
   for (std::size_t k = 0; k < lines.lines.size(); ++k) {
     trial.profile_noise = noise / std::sqrt(workspace.measure.averaged[k]);

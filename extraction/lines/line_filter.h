@@ -52,6 +52,7 @@ struct LineFilterWorkspace {
   std::vector<float> scratch;
   std::vector<BadStretch> stretches;
   EdgeCrowd edges;                   ///< added up over the scales of one image
+  std::size_t tried = 0;             ///< lines that were followed, likewise
   std::vector<std::uint8_t> colour;  ///< one a point: LaserPlace
   ColourWorkspace colours;
   std::vector<LineRange> kept;
