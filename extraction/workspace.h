@@ -18,6 +18,7 @@
 #include "extraction/lines/line_noise.h"
 #include "extraction/lines/line_set.h"
 #include "extraction/lines/smoothing.h"
+#include "extraction/track/look_through.h"
 
 namespace lightstripe {
 
@@ -44,6 +45,7 @@ struct ExtractionWorkspace {
   BendWorkspace bends;
   OwnScaleWorkspace<std::uint8_t> own_scale8;
   OwnScaleWorkspace<std::uint16_t> own_scale16;
+  TrackWorkspace track;
   std::vector<PlacedLine> order;
   std::vector<float> values;
   std::vector<Stripe> spare;  ///< memory of stripes that the last results did not need
