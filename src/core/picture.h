@@ -21,6 +21,8 @@ class Picture {
       : owned_(std::make_shared<const GreyImage>(std::move(image))) {
     std::visit([&](const auto& pixels) { view_ = pixels.view(); }, *owned_);
   }
+  Picture(Image8 image) : Picture(GreyImage(std::move(image))) {}   // NOLINT(google-explicit-constructor)
+  Picture(Image16 image) : Picture(GreyImage(std::move(image))) {}  // NOLINT(google-explicit-constructor)
   /// Pixels that `keeper` keeps; `cached`: they are in memory already, not on a disk still.
   Picture(ImageView8 view, std::shared_ptr<const void> keeper, bool cached = true)
       : view_(view), keeper_(std::move(keeper)), cached_(cached) {}
