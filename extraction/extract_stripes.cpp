@@ -3,7 +3,10 @@
 #include "extraction/extract_stripes.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 
 #include "extraction/compare/grey_value_lines.h"
 #include "extraction/compare/hu_recursive.h"
@@ -11,6 +14,7 @@
 #include "extraction/compare/zhou_roi.h"
 #include "extraction/image/binned_image.h"
 #include "extraction/image/image_facts.h"
+#include "extraction/image/negative.h"
 #include "extraction/image/stripe_width.h"
 #include "extraction/kernels/width_rule.h"
 #include "extraction/lines/curvature_bias.h"
@@ -79,6 +83,7 @@ void filter_groups(const Run<T>& run, double width_slack) {
   w.facts.resize(std::max(w.facts.size(), w.groups.count));
   w.filtered.clear();
   w.tests.edges = {};
+  w.tests.tried = 0;
   for (std::size_t g = 0; g < w.groups.count; ++g) {
     ScaleGroup& group = w.groups.all[g];
     filter_lines(run.image, *group.kernels, run.facts.noise.seen, run.options.lines, width_slack, w.tests,
@@ -87,7 +92,7 @@ void filter_groups(const Run<T>& run, double width_slack) {
   }
   // Gleams with the laser off; a faint line has to be long. The range of 16-bit pixels is not known.
   const double least_height = width_slack > 1 && sizeof(T) == 1 ? 20.0 : 0.0;
-  drop_faint_lines(w.filtered, run.facts.noise.seen, run.options.lines, width_slack, least_height,
+  drop_faint_lines(w.filtered, run.options.lines, {run.facts.noise.seen, width_slack, least_height},
                    w.tests.edges);
 }
 
@@ -282,6 +287,9 @@ bool scales_are_free(const ExtractionOptions& options, const ParsedOptions& pars
 void begin(ExtractionWorkspace& w, ExtractionResult& result) {
   result.sigma = result.threshold_low = result.threshold_high = result.noise = 0;
   result.levels = {};
+  result.impression = Impression::kNone;
+  w.tests.edges = {};
+  w.tests.tried = 0;
   w.groups.count = 0;
 }
 
@@ -308,25 +316,25 @@ template <class T>
 void extract(ImageView<T> whole, const ExtractionOptions& options, ExtractionWorkspace& w,
              ExtractionResult& result) {
   const ParsedOptions parsed = parse_options(options);
+  if (options.polarity == Polarity::kDark && !whole.empty())
+    whole = inverted(whole, w.template negative<T>());
   begin(w, result);
   const ImageView<T> image = region_of(whole, parsed);
-  if (!image.empty()) search(Run<T>{image, options, parsed, look_at(image), w, result, nullptr});
+  if (image.empty()) return hand_over(w, options.max_lines, origin_of(parsed), result);
+  const Run<T> run{image, options, parsed, look_at(image), w, result, nullptr};
+  search(run);
   hand_over(w, options.max_lines, origin_of(parsed), result);
+  if (result.stripes.empty())
+    result.impression = impression_of(
+        run.facts.histogram, {run.facts.noise.seen, full_scale_of(image, run.facts.histogram.largest),
+                              w.tests.tried, w.tests.edges.length});
 }
 
 /// Where a scale is given, the full search costs no more than windows do: what it spends on the whole image
 /// is little against its work on the lines.
 bool can_track(const ExtractionOptions& options, const ParsedOptions& parsed) {
-  return scales_are_free(options, parsed) && !parsed.roi && options.stop_after == 0;
-}
-
-/// White noise falls by half from level to level; other noise by as much as in the earlier frame.
-LevelNoise noise_of_levels(const TrackReference& before, double noise) {
-  LevelNoise levels{};
-  const double change = before.noise[0] > 0 ? noise / before.noise[0] : 0;
-  for (std::size_t k = 0; k < levels.size(); ++k)
-    levels[k] = std::max(noise / static_cast<double>(1 << k), before.noise[k] * change);
-  return levels;
+  return scales_are_free(options, parsed) && !parsed.roi && options.stop_after == 0 &&
+         options.polarity == Polarity::kBright;
 }
 
 /// The search in windows; false where the result cannot be that of the full search.

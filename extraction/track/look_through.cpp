@@ -108,6 +108,14 @@ int coarsest_level(const TrackReference& reference) {
   return std::clamp(static_cast<int>(1 + std::log2(std::max(reference.sigma, 1.0))), 0, 3);
 }
 
+LevelNoise noise_of_levels(const TrackReference& before, double noise) {
+  LevelNoise levels{};
+  const double change = before.noise[0] > 0 ? noise / before.noise[0] : 0;
+  for (std::size_t k = 0; k < levels.size(); ++k)
+    levels[k] = std::max(noise / static_cast<double>(1 << k), before.noise[k] * change);
+  return levels;
+}
+
 template <class T>
 std::optional<ImageFacts> look_through(ImageView<T> image, const TrackReference& reference,
                                        double least_length, TrackWorkspace& w) {

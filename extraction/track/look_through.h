@@ -46,6 +46,10 @@ template <class T>
 std::optional<ImageFacts> look_through(ImageView<T> image, const TrackReference& reference,
                                        double least_length, TrackWorkspace& workspace);
 
+/// Of a pyramid over a frame with this noise, grey levels: white noise falls by half from level to level;
+/// other noise by as much as in the earlier frame.
+LevelNoise noise_of_levels(const TrackReference& before, double noise);
+
 /// The coarsest level of a pyramid in which lines as wide as the reference's begin.
 int coarsest_level(const TrackReference& reference);
 
