@@ -3,10 +3,8 @@
 #include "extraction/extract_stripes.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 
 #include "extraction/compare/grey_value_lines.h"
 #include "extraction/compare/hu_recursive.h"
@@ -293,10 +291,6 @@ void begin(ExtractionWorkspace& w, ExtractionResult& result) {
   w.groups.count = 0;
 }
 
-PixelPlace origin_of(const ParsedOptions& parsed) {
-  return {parsed.roi ? 1.0 * parsed.roi->x : 0.0, parsed.roi ? 1.0 * parsed.roi->y : 0.0};
-}
-
 /// From the facts to the finished lines.
 template <class T>
 void search(const Run<T>& run) {
@@ -320,18 +314,18 @@ void extract(ImageView<T> whole, const ExtractionOptions& options, ExtractionWor
     whole = inverted(whole, w.template negative<T>());
   begin(w, result);
   const ImageView<T> image = region_of(whole, parsed);
-  if (image.empty()) return hand_over(w, options.max_lines, origin_of(parsed), result);
+  const PixelPlace origin{parsed.roi ? 1.0 * parsed.roi->x : 0.0, parsed.roi ? 1.0 * parsed.roi->y : 0.0};
+  if (image.empty()) return hand_over(w, options.max_lines, origin, result);
   const Run<T> run{image, options, parsed, look_at(image), w, result, nullptr};
   search(run);
-  hand_over(w, options.max_lines, origin_of(parsed), result);
+  hand_over(w, options.max_lines, origin, result);
   if (result.stripes.empty())
     result.impression = impression_of(
         run.facts.histogram, {run.facts.noise.seen, full_scale_of(image, run.facts.histogram.largest),
                               w.tests.tried, w.tests.edges.length});
 }
 
-/// Where a scale is given, the full search costs no more than windows do: what it spends on the whole image
-/// is little against its work on the lines.
+/// Where a scale is given, the full search costs no more than windows do.
 bool can_track(const ExtractionOptions& options, const ParsedOptions& parsed) {
   return scales_are_free(options, parsed) && !parsed.roi && options.stop_after == 0 &&
          options.polarity == Polarity::kBright;
@@ -341,8 +335,8 @@ bool can_track(const ExtractionOptions& options, const ParsedOptions& parsed) {
 template <class T>
 bool extract_in_windows(ImageView<T> image, const ExtractionOptions& options, const ParsedOptions& parsed,
                         const TrackReference& before, ExtractionWorkspace& w, ExtractionResult& result) {
-  const double least_length = options.lines.min_length * full_width_of(before.sigma);
-  const auto facts = look_through(image, before, least_length, w.track);
+  const auto facts =
+      look_through(image, before, options.lines.min_length * full_width_of(before.sigma), w.track);
   if (!facts || seed_block(*facts) > 1) return false;
   const WindowedSearch windowed{&w.track.windows, &w.track.seen, noise_of_levels(before, facts->noise.seen),
                                 coarsest_level(before)};
@@ -359,11 +353,11 @@ template <class T>
 bool track(ImageView<T> image, const ExtractionOptions& options, const TrackReference& before,
            ExtractionWorkspace& w, ExtractionResult& result) {
   const ParsedOptions parsed = parse_options(options);
-  const bool known = !before.empty() && before.width == image.width && before.height == image.height;
-  if (known && can_track(options, parsed) && extract_in_windows(image, options, parsed, before, w, result))
-    return true;
-  extract(image, options, w, result);
-  return false;
+  const bool tracked = !before.empty() && before.width == image.width && before.height == image.height &&
+                       can_track(options, parsed) &&
+                       extract_in_windows(image, options, parsed, before, w, result);
+  if (!tracked) extract(image, options, w, result);
+  return tracked;
 }
 
 }  // namespace

@@ -39,6 +39,15 @@ bool is_picture_name(const fs::path& path) {
          std::find(kExtensions.begin(), kExtensions.end(), extension) != kExtensions.end();
 }
 
+/// All pictures of a folder; its tables and notes are left alone.
+FileNames pictures_in(const fs::path& base, const std::string& folder) {
+  FileNames files = list_file_names(base, (fs::path(folder) / "*").string());
+  std::erase_if(files.names, [](const std::string& name) { return !is_picture_name(name); });
+  if (files.names.empty())
+    throw Error((base / folder).string(), "holds no pictures (.png .jpg .bmp .pgm .tif)", "check the folder");
+  return files;
+}
+
 /// Keeps names, not paths: a long recording has very many.
 class ImageFolder : public FrameSource {
  public:
@@ -126,6 +135,9 @@ Channel channel_of_pictures(const std::vector<fs::path>& files) {
 }
 
 std::unique_ptr<FrameSource> open_frames(const fs::path& base, const std::string& pattern, Channel channel) {
+  std::error_code error;
+  if (fs::is_directory(base / pattern, error))
+    return std::make_unique<ImageFolder>(pictures_in(base, pattern), channel);
   FileNames files = list_file_names(base, pattern);
   const fs::path first = files.folder / files.names.front();
   const bool one_file = pattern.find_first_of("*?") == std::string::npos;
