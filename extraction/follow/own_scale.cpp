@@ -305,7 +305,8 @@ void LineFinder<T>::keep_or_reject(const Followed& line, int seed_level) {
   const double least = search_.least_widths * full_width_of(groups_.all[line.group].kernels->sigma);
   if (length(line) >= search_.tuning.least_length * least && !runs_beside_another(line)) {
     ++lines_;
-    if (is_edge(line))
+    // An edge or a crumb: the filter of whole lines drops nearly all of them.
+    if (is_edge(line) || length(line) < least)
       futile_ += search_.tuning.futile_line + length(line) / groups_.all[line.group].kernels->sigma;
     block(line, search_.tuning.blocked_by_line, 0);
     strongest_ = std::max(strongest_, height(line) * std::min(1.0, length(line) / (3 * least)));

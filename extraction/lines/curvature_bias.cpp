@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t kLeastReach = 2;  // nodes to both sides
 /// Of a point's correction: its error. The parabola sees the mean bend over 6 sigma of line, and a clipped
 /// stripe is no Gaussian; measured on sine-shaped lines with kernels of 4 to 10 px.
-constexpr double kCorrectionError = 0.15;
+constexpr double kCorrectionError = 0.2;
 
 /// The way from a smoothed node to the true line. `sigma_px`: the node's own error, which it shares with its
 /// neighbours over `shared_px` along the line.
