@@ -358,7 +358,7 @@ void LineFinder<T>::try_seed(const ScaleSeed& seed) {
 
 template <class T>
 void LineFinder<T>::run() {
-  constexpr std::uint16_t kLastLabel = 60000;  // no line begins with fewer labels left than a long one uses
+  constexpr std::uint16_t kLastLabel = 60000;  // start no new line with fewer labels left than one needs
   prepare();
   const double most_futile = search_.tuning.futile_points * (search_.image.width + search_.image.height);
   for (const ScaleSeed& seed : w_.seeds) {

@@ -23,7 +23,7 @@ struct ImageFacts {
 template <class T>
 ImageFacts look_at(ImageView<T> image);
 
-/// Sets the thresholds by the chosen rule, and how they came about.
+/// Sets threshold_low/high by the chosen rule and records the intermediate levels.
 void choose_levels(const ImageFacts& facts, const ExtractionOptions& options, const ParsedOptions& parsed,
                    ExtractionResult& result);
 
