@@ -11,6 +11,7 @@
 #include "core/error.h"
 #include "io/images.h"
 #include "io/number_text.h"
+#include "report/growing_view.h"
 #include "report/preview.h"
 #include "report/scan_products.h"
 
@@ -166,6 +167,13 @@ int run_reconstruct(const ReconstructArguments& arguments) {
   }
   CloudPreview preview;
   if (!arguments.preview.empty()) draw_preview_of(job, preview, arguments.preview);
+  std::optional<GrowingView> growing;
+  if (job.follow && !arguments.products.view.empty()) {
+    std::vector<std::string> sensors;
+    for (const Sensor& sensor : job.rig.sensors) sensors.push_back(sensor.name);
+    growing.emplace(arguments.products.view, job.cloud.filename().string() + " (growing)", sensors);
+    show_growth(job, *growing);
+  }
   std::vector<std::string> made;
   make_products_of(job, products_of(arguments, job), made);
   const InterruptWatch interrupt;
