@@ -272,6 +272,7 @@ void finish_lines(const Run<T>& run, ScaleGroup& group) {
   if (run.options.curvature_correction && has_ridges(run.options.method))
     correct_curvature_bias(kernels, group.lines, w.bends);
   if (run.options.smoothing) smooth_along_lines(group.lines, w.smoothing);
+  add_bend_errors(group.lines);
   // Last: neither bends nor smoothing may take a bias for scatter.
   add_asymmetry(run.image, kernels, group.lines, w.asymmetry);
 }

@@ -49,6 +49,7 @@ struct OwnScaleWorkspace {
   /// Cells of 4 x 4 pixels beside lines that were followed; bit k: no seed of level k is tried there.
   std::vector<std::uint8_t> blocked;
   std::vector<StripePoint> binned_points;
+  std::vector<float> values;
 };
 
 /// A search in parts of the image only.

@@ -210,6 +210,29 @@ double scale_of_line(ImagePyramid<T>& pyramid, KernelCache& kernels, std::span<c
   return ScaleLadder::sigma(rung + peak_offset(response(rung - 1), response(rung), response(rung + 1)));
 }
 
+double grain_of_line(std::span<const StripePoint> points, double sigma, double noise,
+                     std::vector<float>& scratch) {
+  constexpr std::size_t kLeast = 24, kEnough = 300;
+  constexpr double kToSigma = 1.4826 / 2.449489743;  // of a normal; second differences have sqrt(6) sigma
+  constexpr double kClear = 1.5;                     // times the noise
+  const auto lag = static_cast<std::size_t>(std::lround(std::max(1.0, 2.5 * sigma)));
+  if (points.size() < 2 * lag + kLeast) return 0;
+  const std::size_t step = 1 + points.size() / kEnough;
+  scratch.clear();
+  double strength = 0;
+  for (std::size_t i = 0; i + 2 * lag < points.size(); i += step) {
+    const double middle = points[i + lag].strength;
+    scratch.push_back(
+        static_cast<float>(std::abs(points[i].strength - 2 * middle + points[i + 2 * lag].strength)));
+    strength += middle;
+  }
+  strength /= static_cast<double>(scratch.size());
+  const auto middle = scratch.begin() + static_cast<std::ptrdiff_t>(scratch.size() / 2);
+  std::nth_element(scratch.begin(), middle, scratch.end());
+  const double seen = kToSigma * double{*middle};
+  return seen > kClear * noise ? std::sqrt(seen * seen - noise * noise) / strength : 0.0;
+}
+
 template void build_pyramid<std::uint8_t>(ImageView8, double, ImagePyramid<std::uint8_t>&);
 template void build_pyramid<std::uint16_t>(ImageView16, double, ImagePyramid<std::uint16_t>&);
 template void build_pyramid<std::uint8_t>(ImageView8, const LevelNoise&, const SearchWindows&,

@@ -79,4 +79,10 @@ template <class T>
 double scale_of_line(ImagePyramid<T>& pyramid, KernelCache& kernels, std::span<const StripePoint> points,
                      double sigma);
 
+/// How much the strength of a line varies from grain to grain, as a share of the strength, beyond what the
+/// camera's noise does: the median of second differences over 2.5 `sigma`, which squares of a board and
+/// slow changes do not touch. 0 where it does not stand out of `noise`, the standard deviation of strengths.
+double grain_of_line(std::span<const StripePoint> points, double sigma, double noise,
+                     std::vector<float>& scratch);
+
 }  // namespace lightstripe

@@ -29,7 +29,7 @@ int facts_thinning(int width, int height);
 template <class T>
 NoiseEstimate noise_of(ImageView<T> image);
 
-/// Sets the thresholds by the chosen rule, and how they came about.
+/// Sets threshold_low/high by the chosen rule and records the intermediate levels.
 void choose_levels(const ImageFacts& facts, const ExtractionOptions& options, const ParsedOptions& parsed,
                    ExtractionResult& result);
 
