@@ -15,6 +15,7 @@
 #include "io/frame_numbers.h"
 #include "io/images.h"
 #include "io/session_file.h"
+#include "pipeline/background_pictures.h"
 #include "reconstruct/frame_ranges.h"
 #include "reconstruct/travel.h"
 
@@ -44,6 +45,8 @@ class Recording {
   /// What the user should know of the recording before he trusts the result: an encoder that jumps, counters
   /// that start apart, a video that is cut short.
   const std::vector<std::string>& warnings() const { return warnings_; }
+  /// The channel in which a sensor's pictures are read; nothing where the scan names none of it.
+  std::optional<Channel> channel(int sensor) const;
   /// Frames of the table before the first and behind the last picture.
   const FrameRanges& without_picture() const { return without_picture_; }
   /// Where the cloud's coordinates count from, so that 32-bit numbers carry 0.001 mm; 0 where they do anyway.
@@ -51,6 +54,9 @@ class Recording {
 
  private:
   void open_sensors(const Scan& scan, const std::string& scan_file);
+  void open_background(const Scan& scan, std::size_t sensor, const std::string& name,
+                       const std::string& pattern, const std::string& scan_file);
+  void look_at_backgrounds();
   void read_positions(const Scan& scan, const std::string& scan_file);
   void refuse_other_size(const std::string& scan_file) const;
   std::vector<std::int64_t> frames_of_table() const;
@@ -60,6 +66,7 @@ class Recording {
 
   const Rig& rig_;
   std::vector<std::unique_ptr<FrameSource>> sources_;  ///< by the rig's sensors; null: not in the scan
+  std::vector<std::unique_ptr<BackgroundPictures>> backgrounds_;  ///< likewise; null: none to subtract
   FrameMap map_;
   TravelSource travel_ = TravelSource::kNone;
   double step_ = 0;

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <atomic>
 #include <exception>
 
@@ -78,6 +79,15 @@ std::optional<GreyImage> usable_picture(const ScanInput& input, const Rig& rig, 
   }
 }
 
+double median_width(const Stripe& stripe) {
+  std::vector<double> widths;
+  widths.reserve(stripe.points.size());
+  for (const StripePoint& p : stripe.points) widths.push_back(p.width);
+  const auto middle = widths.begin() + static_cast<std::ptrdiff_t>(widths.size() / 2);
+  std::nth_element(widths.begin(), middle, widths.end());
+  return *middle;
+}
+
 ScannedFrame scan_frame(const PlacedFrame& placed, const ScanInput& input, const Rig& rig,
                         const StripeExtractor& extract) {
   ScannedFrame out;
@@ -88,7 +98,11 @@ ScannedFrame scan_frame(const PlacedFrame& placed, const ScanInput& input, const
     const auto image = usable_picture(input, rig, sensor, out);
     if (!image) continue;
     ++out.pictures;
-    triangulate_stripes(extract(*image), rig, sensor, placed.position, out.profile);
+    const std::vector<Stripe> stripes = extract(*image);
+    for (const Stripe& stripe : stripes)
+      if (!stripe.points.empty())
+        out.lines.push_back({sensor, static_cast<int>(stripe.points.size()), median_width(stripe)});
+    triangulate_stripes(stripes, rig, sensor, placed.position, out.profile);
   }
   if (input.encode) input.encode(out);
   return out;

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "extraction/follow/bridge.h"
+#include "extraction/image/background.h"
 #include "extraction/kernels/width_rule.h"
 #include "extraction/lines/line_measure.h"
 
@@ -324,15 +325,18 @@ void keep_if(LineSet& lines, std::vector<LineFacts>& facts, const Test& test) {
   facts.resize(kept);
 }
 
+/// The laser's colour at each point; a point that was clipped before its background was taken away is
+/// flagged.
 template <class T>
-void look_at_colours(ImageView<T> image, const LineSet& lines, std::vector<std::uint8_t>& colour) {
+void look_at_colours(ImageView<T> image, LineSet& lines, std::vector<std::uint8_t>& colour) {
   colour.assign(lines.points.size(), LaserPlace::kSure);
   if (image.where == nullptr) return;
   for (std::size_t i = 0; i < colour.size(); ++i) {
-    const StripePoint& p = lines.points[i];
+    StripePoint& p = lines.points[i];
     const int x = std::clamp(static_cast<int>(p.x + 0.5), 0, image.width - 1),
               y = std::clamp(static_cast<int>(p.y + 0.5), 0, image.height - 1);
     colour[i] = image.laser_colour(x, y);
+    if (colour[i] == kClippedPlace) p.flags |= kStripeSaturated;
   }
 }
 

@@ -59,6 +59,7 @@ class TiffPages : public FrameSource {
     return fmt::format("{}#{}", path_.filename().string(), index);
   }
   std::filesystem::path file(std::int64_t) const override { return path_; }
+  Channel channel() const override { return channel_; }
   GreyImage read(std::int64_t index) const override { return read_as(index, channel_, nullptr); }
 
  private:
