@@ -12,6 +12,7 @@
 #include <numbers>
 
 #include "core/error.h"
+#include "core/robust.h"
 #include "io/atomic_file.h"
 #include "io/csv_reader.h"
 #include "io/nominal_outlines.h"
@@ -86,9 +87,7 @@ std::optional<double> height_between(const std::vector<Vector2d>& points, double
   for (const Vector2d& p : points)
     if (p.x() >= from && p.x() <= to) heights.push_back(p.y());
   if (heights.empty()) return std::nullopt;
-  std::nth_element(heights.begin(), heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 2),
-                   heights.end());
-  return heights[heights.size() / 2];
+  return upper_median(heights);
 }
 
 /// Height at a place, straight between its neighbours.

@@ -8,6 +8,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "core/image.h"
+#include "core/robust.h"
 
 namespace lightstripe {
 namespace {
@@ -38,9 +39,7 @@ double usual_level(const cv::Mat& level) {
     for (int x = step / 2; x < level.cols; x += step)
       sizes.push_back(static_cast<std::int16_t>(std::abs(level.at<std::int16_t>(y, x))));
   if (sizes.empty()) return 0;
-  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-  std::nth_element(sizes.begin(), middle, sizes.end());
-  return 1.4826 * *middle;
+  return kMadToSigma * upper_median(sizes);
 }
 
 double top_level(const cv::Mat& level) {

@@ -7,7 +7,6 @@
 
 #include "core/error.h"
 #include "io/backgrounds_field.h"
-#include "io/moving_part.h"
 #include "io/session_target.h"
 
 namespace lightstripe {
@@ -48,7 +47,7 @@ constexpr std::array<EnumName<SessionMotionType>, 3> enum_names(SessionMotionTyp
 struct MotionFields {
   std::optional<SessionMotionType> type;
   std::optional<std::string> sensor, board, travel, file;
-  MovingPart moves = MovingPart::kRig;
+  Moves moves = Moves::kRig;
 };
 template <class V>
 void visit_fields(V&& v, MotionFields& o) {
@@ -167,8 +166,7 @@ SessionMotion checked_motion(const MotionFields& fields, const std::vector<Sessi
   check.require(!fields.file, "motion.file", "belongs to poses", "give board and travel, or type: poses");
   const bool rotary = *fields.type == SessionMotionType::kRotary;
   return {rotary ? MotionType::kRotary : MotionType::kLinear, sensor,
-          check.text(fields.board, "motion.board"), check.text(fields.travel, "motion.travel"),
-          fields.moves == MovingPart::kRig};
+          check.text(fields.board, "motion.board"), check.text(fields.travel, "motion.travel"), fields.moves};
 }
 
 /// The file of the tool's poses.
@@ -233,7 +231,7 @@ std::string session_to_yaml(const Session& session) {
         motion.board,
         motion.travel,
         std::nullopt,
-        moving_part(motion.rig_moves)};
+        motion.moves};
   }
   if (session.tool_poses) {
     fields.motion.emplace();
