@@ -18,6 +18,7 @@ namespace {
 struct ExtractedImage {
   std::string rows, warning;
   std::size_t lines = 0, points = 0;
+  Impression impression = Impression::kNone;
 };
 
 /// What is kept from image to image.
@@ -52,6 +53,7 @@ ExtractedImage extract_one(const ExtractJob& job, const BackgroundPictures* back
   append_stripes(out.rows, job.images[index], memory.result.stripes);
   out.lines = memory.result.stripes.size();
   for (const auto& stripe : memory.result.stripes) out.points += stripe.points.size();
+  out.impression = memory.result.impression;
   if (job.on_image) job.on_image(index, {image, channel, memory.result});
   return out;
 }
@@ -87,6 +89,7 @@ ExtractResult extract(const ExtractJob& job, const ProgressCallback& progress, c
       out.lines += result.lines;
       out.points += result.points;
       if (!result.warning.empty()) out.warnings.push_back(result.warning);
+      if (out.impression == Impression::kNone) out.impression = result.impression;
     }
   }
   table.close();

@@ -40,7 +40,8 @@ struct ExtractJob {
 
 struct ExtractResult {
   std::size_t images = 0, lines = 0, points = 0;
-  std::vector<std::string> warnings;  ///< of backgrounds that do not quite fit
+  std::vector<std::string> warnings;          ///< of backgrounds that do not quite fit
+  Impression impression = Impression::kNone;  ///< of the first picture without a line
   bool usable() const { return points > 0; }
 };
 

@@ -122,6 +122,7 @@ LaserLight<T> subtract(const Image<T>& lit, const Image<T>& dark) {
   light.change = ambient.change;
   light.image = Image<T>(lit.width, lit.height);
   light.image.where = lit.where;
+  light.image.rise = lit.rise;
   if (lit.where.empty()) light.image.where.assign(lit.pixels.size(), LaserPlace::kSure);
   std::size_t darker = 0;
   for (std::size_t i = 0; i < lit.pixels.size(); ++i) {

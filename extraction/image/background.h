@@ -26,7 +26,7 @@ inline constexpr int kDarkLevel = 12;
 
 /// In an image's `where`: the laser is surely here, and so strong that the pixel was clipped before anything
 /// was subtracted.
-inline constexpr std::uint8_t kClippedPlace = LaserPlace::kSure + 1;
+inline constexpr std::uint8_t kClippedPlace = 4;  ///< after LaserPlace and kOtherLight (line_colour.h)
 
 template <class T>
 struct LaserLight {

@@ -106,7 +106,9 @@ Image8 grey_values(const cv::Mat& picture, Channel channel, const std::string& f
     Image8 image = image8_of(is_clipped(channel)    ? clipped_light(bgr, plane)
                              : is_textured(channel) ? excess(bgr, plane)
                                                     : bgr.at(plane));
-    image.where = where_laser_colour(bgr, plane);
+    LaserColour colour = where_laser_colour(bgr, plane);
+    image.where = std::move(colour.where);
+    image.rise = std::move(colour.rise);
     return image;
   }
   cv::Mat grey;

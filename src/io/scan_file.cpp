@@ -35,6 +35,7 @@ struct ScanFields {
   std::optional<TravelFields> travel;
   std::optional<Channel> channel;
   std::optional<Backgrounds> background;
+  std::optional<std::string> polarity;  ///< as extraction: {polarity: ...}
   YamlSubtree extraction;
 };
 template <class V>
@@ -44,6 +45,7 @@ void visit_fields(V&& v, ScanFields& o) {
   v("travel", o.travel);
   v("channel", o.channel);
   v("background", o.background);
+  v("polarity", o.polarity);
   v("extraction", o.extraction);
 }
 
@@ -111,6 +113,8 @@ Scan read_scan(const std::filesystem::path& path) {
   if (fields.channel) scan.channel = *fields.channel;
   if (fields.background) scan.background = checked_backgrounds(*fields.background, scan, file);
   scan.extraction = fields.extraction;
+  if (scan.extraction.origin.empty()) scan.extraction.origin = path.string() + ": extraction";
+  if (fields.polarity) detail::add_entry(scan.extraction, "polarity", *fields.polarity);
   return scan;
 }
 
