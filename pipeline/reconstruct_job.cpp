@@ -111,7 +111,7 @@ ScanInput scan_input(const Run& run, const ScanOutput& output, const std::stop_t
   input.before = earlier_part(run, output.tally());
   input.strict = run.job.strict;
   input.stop = stop;
-  input.read = [&](std::int64_t frame, int sensor) { return recording.read(frame, sensor); };
+  input.read = [&](std::int64_t frame, int sensor) { return recording.look(frame, sensor); };
   input.position = [&](std::int64_t frame) { return recording.position(frame); };
   input.recorded = [&](std::int64_t frame) { return recording.recorded(frame); };
   input.encode = [&](ScannedFrame& frame) { output.encode(frame); };

@@ -208,17 +208,35 @@ void Recording::refuse_other_size(const std::string& scan_file) const {
   }
 }
 
-std::optional<GreyImage> Recording::read(std::int64_t frame, int sensor) const {
+const FrameSource* Recording::source_of(std::int64_t frame, int sensor, std::int64_t& index) const {
   const auto& source = sources_[static_cast<std::size_t>(sensor)];
-  if (!source) return std::nullopt;
-  const std::int32_t index = map_.index_of(static_cast<std::size_t>(sensor), frame);
+  if (!source) return nullptr;
+  index = map_.index_of(static_cast<std::size_t>(sensor), frame);
   if (index < 0)
     throw Error(fmt::format("{}, frame {}", rig_.sensors[static_cast<std::size_t>(sensor)].name, frame),
                 "its picture is missing", "look for the file, or scan without it");
-  GreyImage picture = source->read(index);
+  return source.get();
+}
+
+GreyImage Recording::light_of(const FrameSource& source, std::int64_t index, int sensor) const {
   const auto& background = backgrounds_[static_cast<std::size_t>(sensor)];
-  return background ? background->light_of(picture, source->name(index), source->channel())
-                    : std::move(picture);
+  return background->light_of(source.read(index), source.name(index), source.channel());
+}
+
+std::optional<GreyImage> Recording::read(std::int64_t frame, int sensor) const {
+  std::int64_t index = 0;
+  const FrameSource* source = source_of(frame, sensor, index);
+  if (source == nullptr) return std::nullopt;
+  return backgrounds_[static_cast<std::size_t>(sensor)] ? light_of(*source, index, sensor)
+                                                        : source->read(index);
+}
+
+std::optional<Picture> Recording::look(std::int64_t frame, int sensor) const {
+  std::int64_t index = 0;
+  const FrameSource* source = source_of(frame, sensor, index);
+  if (source == nullptr) return std::nullopt;
+  if (backgrounds_[static_cast<std::size_t>(sensor)]) return Picture(light_of(*source, index, sensor));
+  return source->look(index);
 }
 
 std::optional<Channel> Recording::channel(int sensor) const {

@@ -32,6 +32,8 @@ class Recording {
 
   /// The picture; nothing where the scan names none for this sensor. An Error where it is missing or damaged.
   std::optional<GreyImage> read(std::int64_t frame, int sensor) const;
+  /// The same without a copy where the picture's pixels lie in its file as they are needed.
+  std::optional<Picture> look(std::int64_t frame, int sensor) const;
   std::optional<FramePosition> position(std::int64_t frame) const;
   /// Whether a picture or a row of the travel table speaks of this frame.
   bool recorded(std::int64_t frame) const;
@@ -53,10 +55,13 @@ class Recording {
   Eigen::Vector3d cloud_origin() const;
 
  private:
+  /// Where the picture is; null: the scan names none for this sensor.
+  const FrameSource* source_of(std::int64_t frame, int sensor, std::int64_t& index) const;
   void open_sensors(const Scan& scan, const std::string& scan_file);
   void open_background(const Scan& scan, std::size_t sensor, const std::string& name,
                        const std::string& pattern, const std::string& scan_file);
   void look_at_backgrounds();
+  GreyImage light_of(const FrameSource& source, std::int64_t index, int sensor) const;
   void read_positions(const Scan& scan, const std::string& scan_file);
   void refuse_other_size(const std::string& scan_file) const;
   std::vector<std::int64_t> frames_of_table() const;

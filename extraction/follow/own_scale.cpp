@@ -35,6 +35,10 @@ void collect_level(const OwnScaleSearch<T>& search, int level, SeedWorkspace& se
   rule.brightest = search.brightest;
   rule.reach = kSeedReach;
   rule.step = level == 0 ? 2 : 1;
+  if (search.windowed != nullptr) {
+    rule.windows = search.windowed->seeds;
+    rule.binned = level;
+  }
   find_seeds(w.pyramid.levels[k], rule, seeds);
   const int half = (1 << level) / 2;
   for (const LineSeed& s : seeds.sorted)
@@ -105,10 +109,14 @@ class LineFinder {
 
 template <class T>
 void LineFinder<T>::prepare() {
-  build_pyramid(search_.image, search_.noise, w_.pyramid);
+  if (search_.windowed != nullptr)
+    build_pyramid(search_.image, search_.windowed->noise, *search_.windowed->seen, w_.pyramid);
+  else
+    build_pyramid(search_.image, search_.noise, w_.pyramid);
   w_.found.clear();
   for (int level = 0; level < w_.pyramid.count; ++level) {
-    collect_level(search_, level, following_.seeds, w_);
+    if (search_.windowed == nullptr || level <= search_.windowed->coarsest)
+      collect_level(search_, level, following_.seeds, w_);
     const ImageView<T> image = w_.pyramid.levels[static_cast<std::size_t>(level)];
     w_.tried[static_cast<std::size_t>(level)].assign(
         static_cast<std::size_t>(image.width / 4 + 1) * static_cast<std::size_t>(image.height / 4 + 1), 0);

@@ -15,6 +15,7 @@
 #include "core/image.h"
 #include "core/stripe.h"
 #include "extraction/kernels/kernels.h"
+#include "extraction/track/search_windows.h"
 
 namespace lightstripe {
 
@@ -44,6 +45,15 @@ struct ImagePyramid {
 /// `noise`: of the image, grey levels. Small images have fewer levels.
 template <class T>
 void build_pyramid(ImageView<T> image, double noise, ImagePyramid<T>& pyramid);
+
+/// Noise in each level of a pyramid, grey levels.
+using LevelNoise = std::array<double, ImagePyramid<std::uint8_t>::kMostLevels>;
+
+/// The same where only the windows are looked at: black elsewhere in the binned levels, and the levels' noise
+/// is given.
+template <class T>
+void build_pyramid(ImageView<T> image, const LevelNoise& noise, const SearchWindows& windows,
+                   ImagePyramid<T>& pyramid);
 
 /// The ladder of scales: half an octave from rung to rung.
 struct ScaleLadder {

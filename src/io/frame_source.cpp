@@ -10,6 +10,7 @@
 #include "io/choose_channel.h"
 #include "io/frame_numbers.h"
 #include "io/images.h"
+#include "io/plain_pixels.h"
 #include "io/tiff_pages.h"
 #include "io/video_frames.h"
 
@@ -57,12 +58,23 @@ class ImageFolder : public FrameSource {
     return read_grey_image(folder_ / names_[checked(index)], channel_);
   }
   Channel channel() const override { return channel_; }
+  Picture look(std::int64_t index) const override {
+    auto picture = map_picture(file(index), channel_);
+    if (!picture) return read(index);
+    if (!picture->is_cached()) read_ahead_of(index);
+    return *std::move(picture);
+  }
   std::optional<std::int64_t> number(std::int64_t index) const override {
     if (numbers_.empty()) return std::nullopt;
     return numbers_[checked(index)];
   }
 
  private:
+  /// From a slow disk the next pictures come while this one is looked at.
+  void read_ahead_of(std::int64_t index) const {
+    constexpr std::int64_t kAhead = 8;
+    for (std::int64_t k = index + 1; k < std::min(size(), index + 1 + kAhead); ++k) read_ahead(file(k));
+  }
   std::size_t checked(std::int64_t index) const {
     LIGHTSTRIPE_CHECK(index >= 0 && index < size(), "a frame of the sequence");
     return static_cast<std::size_t>(index);

@@ -15,6 +15,7 @@
 
 #include "core/fields.h"
 #include "core/image.h"
+#include "core/picture.h"
 
 namespace lightstripe {
 
@@ -130,6 +131,8 @@ class FrameSource {
   virtual GreyImage read(std::int64_t index) const = 0;
   /// The channel that all of it is read in; never kAuto.
   virtual Channel channel() const { return Channel::kGray; }
+  /// The same where its pixels lie in the file as they are needed, without a copy; else what read() gives.
+  virtual Picture look(std::int64_t index) const { return read(index); }
   /// Why the recording may not be whole ("its header says 240 frames"); empty where nothing speaks for that.
   virtual std::string doubt() const { return {}; }
   /// The running number that the picture's file name carries; nothing where the names have no such number.
