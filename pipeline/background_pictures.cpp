@@ -107,8 +107,8 @@ GreyImage BackgroundPictures::light_of(const GreyImage& picture, const fs::path&
       read(background, channel, std::holds_alternative<Image8>(picture));
   return std::visit(
       [&](const auto& lit) -> GreyImage {
-        using Picture = std::decay_t<decltype(lit)>;
-        const auto* same_bits = std::get_if<Picture>(dark.get());
+        using Same = std::decay_t<decltype(lit)>;
+        const auto* same_bits = std::get_if<Same>(dark.get());
         if (same_bits == nullptr)
           throw Error(background.string(), fmt::format("has not as many bits as {}", file.string()),
                       "take both with the same camera and setting");
