@@ -185,6 +185,8 @@ int run_reconstruct(const ReconstructArguments& arguments) {
       fmt::format("{} frames, {} points in {:.2f} s ({:.1f} frames/s) -> {}", result.summary.frames,
                   result.summary.points, result.seconds,
                   static_cast<double>(result.frames_now) / result.seconds, job.cloud.string()));
+  for (const SensorLines& lines : result.lines)
+    if (lines.points > 0) say(arguments.common, describe_lines(lines));
   for (const std::string& line : made) say(arguments.common, line);
   return kExitDone;
 }
