@@ -17,6 +17,7 @@
 #include "extraction/workspace.h"
 #include "io/atomic_file.h"
 #include "io/images.h"
+#include "io/output_guard.h"
 #include "io/tables.h"
 #include "pipeline/job.h"
 
@@ -202,6 +203,8 @@ std::string table_row(const Timing& t, double steger_ms) {
 
 int run_bench(const BenchArguments& arguments) {
   const JobThreads one_thread(1);
+  const std::string output = arguments.common.output.empty() ? "bench.csv" : arguments.common.output;
+  guard_outputs({arguments.images.begin(), arguments.images.end()}, {output});
   ExtractionOptions options;
   apply_overrides(options, arguments.overrides);
   std::string csv = "image,method,median_ms,points\n";
@@ -217,7 +220,6 @@ int run_bench(const BenchArguments& arguments) {
     }
     for (const auto& method : bench.disagreements) disagreements += fmt::format(" {} in {};", method, file);
   }
-  const std::string output = arguments.common.output.empty() ? "bench.csv" : arguments.common.output;
   write_file(output, csv);
   say(arguments.common, "-> " + output);
   if (!disagreements.empty())

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <mutex>
+
 #include "apps/command.h"
 #include "apps/options.h"
 #include "apps/progress.h"
@@ -41,17 +43,31 @@ int run_extract(const ExtractArguments& arguments) {
   if (!arguments.common.output.empty()) job.table = arguments.common.output;
   std::vector<fs::path> overlays;
   if (!arguments.overlay_folder.empty()) overlays = overlay_files(arguments.images, arguments.overlay_folder);
+  job.other_outputs = overlays;
+  if (arguments.explain)
+    for (const fs::path& overlay : overlays) job.other_outputs.push_back(histogram_file(overlay));
+  std::string lost_overlay;  // a picture that cannot be drawn does not cost the table
+  std::mutex mutex;
   std::vector<std::string> explanations(arguments.explain ? job.images.size() : 0);
   job.on_image = [&](std::size_t i, const Image8& image, const ExtractionResult& result) {
-    if (!overlays.empty()) write_overlay(overlays[i], image, result);
-    if (!arguments.explain) return;
-    explanations[i] = explain_extraction(job.images[i], job.extraction, result);
-    if (!overlays.empty()) write_histogram(overlays[i], image, result);
+    if (arguments.explain) explanations[i] = explain_extraction(job.images[i], job.extraction, result);
+    if (overlays.empty()) return;
+    try {
+      write_overlay(overlays[i], image, result);
+      if (arguments.explain) write_histogram(overlays[i], image, result);
+    } catch (const Error& error) {
+      const std::scoped_lock lock(mutex);
+      if (lost_overlay.empty()) lost_overlay = error.what();
+    }
   };
   if (arguments.explain) job.on_row = [&](std::size_t i) { say(arguments.common, explanations[i]); };
   const ExtractResult result = extract(job, progress_line(arguments.common.quiet));
   say(arguments.common, fmt::format("{} images, {} lines, {} points -> {}", result.images, result.lines,
                                     result.points, job.table.string()));
+  if (!lost_overlay.empty()) {
+    warn("the table is written, pictures are not: " + lost_overlay);
+    return kExitInputWrong;
+  }
   if (!result.usable())
     return not_usable(
         "no stripe was found in any image; look at exposure and --channel, or give --stripe-width and "

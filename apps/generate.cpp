@@ -21,7 +21,7 @@ int run_generate(const GenerateArguments& arguments, const CLI::App& app) {
   const std::string text =
       arguments.what == "man-page" ? man_page(app, LIGHTSTRIPE_VERSION) : bash_completion(app);
   if (arguments.common.output.empty()) {
-    fmt::print("{}", text);
+    print_result(text);
   } else {
     write_file(arguments.common.output, text);
   }

@@ -28,6 +28,11 @@ struct MeasureArguments {
   Overrides rail, wheel, registration, limit;
 };
 
+/// The picture of a frame's section, beside the table.
+fs::path plot_file(const MeasureJob& job, std::int64_t frame) {
+  return fs::path(job.table).replace_extension() += fmt::format("_{:06}.png", frame);
+}
+
 MeasureJob job_of(const MeasureArguments& arguments) {
   MeasureJob job = arguments.job;
   apply_overrides(job.options.rail, arguments.rail);
@@ -37,13 +42,16 @@ MeasureJob job_of(const MeasureArguments& arguments) {
   apply_overrides(job.limits, arguments.limit);
   if (!arguments.common.output.empty()) job.table = arguments.common.output;
   job.threads = arguments.common.threads;
+  job.other_inputs = {arguments.limits_file, arguments.scan};
+  job.other_outputs = {arguments.report};
+  for (const std::int64_t frame : arguments.plot) job.other_outputs.push_back(plot_file(job, frame));
   return job;
 }
 
 void write_plots(const MeasureArguments& arguments, const MeasureJob& job, const MeasureResult& result) {
   for (const std::int64_t frame : arguments.plot) {
     const RgbPicture picture = plot_frame(result, frame);
-    const fs::path path = fs::path(job.table).replace_extension() += fmt::format("_{:06}.png", frame);
+    const fs::path path = plot_file(job, frame);
     write_rgb_image(path, picture.pixels, picture.width, picture.height);
     say(arguments.common, "frame " + std::to_string(frame) + " -> " + path.string());
   }

@@ -99,11 +99,14 @@ int run_reconstruct(const ReconstructArguments& arguments) {
   ReconstructJob job = job_of(arguments);
   if (arguments.dry_run) {
     const auto [first, end] = frames_to_reconstruct(job);
-    fmt::print("frames: {}:{}\n", first, end);
+    print_result(fmt::format("frames: {}:{}\n", first, end));
     return kExitDone;
   }
   CloudPreview preview;
-  if (!arguments.preview.empty()) draw_preview_of(job, preview, arguments.preview);
+  if (!arguments.preview.empty()) {
+    job.other_outputs.push_back(arguments.preview);
+    draw_preview_of(job, preview, arguments.preview);
+  }
   const InterruptWatch interrupt;
   const ReconstructResult result = reconstruct(job, progress_line(arguments.common.quiet), interrupt.token());
   warn_of_skipped(result, job.cloud.string());

@@ -32,7 +32,7 @@ struct SimulateArguments {
 
 int run_simulate(const SimulateArguments& arguments) {
   if (arguments.print_scene) {
-    fmt::print("{}", dump_yaml(arguments.scene.empty() ? Scene{} : read_scene(arguments.scene), true));
+    print_result(dump_yaml(arguments.scene.empty() ? Scene{} : read_scene(arguments.scene), true));
     return kExitDone;
   }
   const SimulationSummary summary = simulate_with_progress(read_scene(arguments.scene), arguments.common);

@@ -9,6 +9,7 @@
 #include "extraction/extract_stripes.h"
 #include "extraction/workspace.h"
 #include "io/atomic_file.h"
+#include "io/output_guard.h"
 #include "io/tables.h"
 
 namespace lightstripe {
@@ -42,6 +43,9 @@ ExtractResult extract(const ExtractJob& job, const ProgressCallback& progress, c
   const JobThreads threads(job.threads);
   const std::size_t total = job.images.size();
   const std::size_t batch = 2 * static_cast<std::size_t>(thread_count(job.threads));  // bounds the memory
+  std::vector<std::filesystem::path> outputs = job.other_outputs;
+  outputs.push_back(job.table);
+  guard_outputs({job.images.begin(), job.images.end()}, outputs);
   AtomicFile file(job.table);
   std::ofstream table(file.temporary(), std::ios::binary);
   table << kStripesHeader;

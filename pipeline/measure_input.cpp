@@ -9,6 +9,7 @@
 #include <fstream>
 
 #include "core/error.h"
+#include "io/atomic_file.h"
 #include "io/nominal_outlines.h"
 #include "io/tables.h"
 #include "measure/profile_formats.h"
@@ -18,6 +19,7 @@ namespace lightstripe {
 namespace {
 
 RecordedProfile read_recorded(const std::string& path, ProfileFormat format, ObjectKind kind) {
+  refuse_special_file(path);
   std::ifstream in(path, std::ios::binary);
   if (!in) throw Error(path, "cannot be read", "check the name");
   RecordedProfile profile =
@@ -55,6 +57,7 @@ MeasureInput input_of(const RecordedProfile& recorded, const std::string& path) 
     profile.points.push_back(point);
   }
   input.profiles.push_back(std::move(profile));
+  input.further_profiles = recorded.further_profiles;
   if (recorded.kind == ObjectKind::kRail) return input;
   input.prior.pose = SectionPose{};
   input.wheel.back_is_given = true;

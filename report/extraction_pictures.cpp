@@ -32,11 +32,14 @@ void write_overlay(const fs::path& file, const Image8& image, const ExtractionRe
   write_rgb_image(file, draw_overlay(image, result.stripes), image.width, image.height);
 }
 
-void write_histogram(const fs::path& overlay, const Image8& image, const ExtractionResult& result) {
+fs::path histogram_file(const fs::path& overlay) {
   fs::path picture = overlay;
-  picture.replace_filename(overlay.stem().string() + "_histogram.png");
-  write_rgb_image(picture, draw_histogram(compute_histogram(image.view()), result), kHistogramPlotWidth,
-                  kHistogramPlotHeight);
+  return picture.replace_filename(overlay.stem().string() + "_histogram.png");
+}
+
+void write_histogram(const fs::path& overlay, const Image8& image, const ExtractionResult& result) {
+  write_rgb_image(histogram_file(overlay), draw_histogram(compute_histogram(image.view()), result),
+                  kHistogramPlotWidth, kHistogramPlotHeight);
 }
 
 }  // namespace lightstripe

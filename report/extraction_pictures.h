@@ -20,6 +20,9 @@ std::vector<std::filesystem::path> overlay_files(const std::vector<std::string>&
 /// Writes the image with its lines drawn in.
 void write_overlay(const std::filesystem::path& file, const Image8& image, const ExtractionResult& result);
 
+/// The histogram's file beside the overlay.
+std::filesystem::path histogram_file(const std::filesystem::path& overlay);
+
 /// Writes the image's histogram with the thresholds beside the overlay, as <overlay>_histogram.png.
 void write_histogram(const std::filesystem::path& overlay, const Image8& image,
                      const ExtractionResult& result);

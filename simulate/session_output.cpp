@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <iterator>
 #include <set>
+#include <sstream>
 
 #include "core/error.h"
 #include "io/atomic_file.h"
@@ -98,24 +99,78 @@ std::vector<NamedPose> true_poses(const ImagePlan& plan, const Rigid3& rig_from_
   return poses;
 }
 
+constexpr const char* kMarkerFile = ".lightstripe-simulation";
+constexpr const char* kMarkerHead =
+    "# written by lightstripe simulate; it may replace and delete these files";
+
+/// What an earlier simulation has written into the folder, as its marker file says: the only files that may
+/// be replaced or deleted. The files without number are there whenever a marker is.
+std::set<std::string> written_before(const fs::path& output_folder) {
+  std::set<std::string> files;
+  std::error_code error;
+  if (!fs::is_regular_file(output_folder / kMarkerFile, error)) return files;
+  std::istringstream lines(read_file(output_folder / kMarkerFile));
+  for (std::string line; std::getline(lines, line);)
+    if (!line.empty() && line.front() != '#' && line.find("..") == std::string::npos && line.front() != '/')
+      files.insert(line);
+  for (const char* file :
+       {"calibration.yaml", "scan.yaml", "calib/travel.csv", "scan/travel.csv", "scan/poses.csv",
+        "truth/stripes.csv", "truth/rig.yaml", "truth/scene.yaml", "truth/poses.csv"})
+    files.insert(file);
+  return files;
+}
+
+[[noreturn]] void refuse_foreign(const fs::path& file) {
+  throw Error(file.string(), "is there already, and no earlier simulation has written it",
+              "name an empty or new folder");
+}
+
+/// Files of the user where the simulation would write, or pictures of his that its patterns would catch.
+void refuse_foreign_files(const fs::path& output_folder, const std::set<std::string>& images,
+                          const std::set<fs::path>& folders, const std::set<std::string>& earlier) {
+  std::error_code error;
+  std::set<std::string> planned = images;
+  for (const char* file :
+       {"calibration.yaml", "scan.yaml", "calib/travel.csv", "scan/travel.csv", "scan/poses.csv",
+        "truth/stripes.csv", "truth/rig.yaml", "truth/scene.yaml", "truth/poses.csv"})
+    planned.insert(file);
+  for (const std::string& file : planned)
+    if (earlier.count(file) == 0 && fs::exists(output_folder / file, error))
+      refuse_foreign(output_folder / file);
+  for (const fs::path& folder : folders) {
+    if (!fs::is_directory(folder, error)) continue;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
+      const std::string file = entry.path().lexically_relative(output_folder).string();
+      if (is_numbered_png(entry.path()) && earlier.count(file) == 0) refuse_foreign(entry.path());
+    }
+  }
+}
+
 }  // namespace
 
 void make_folders(const ImagePlan& plan, const fs::path& output_folder) {
-  std::set<fs::path> folders, written;
+  std::set<std::string> images;
+  std::set<fs::path> folders;
   for (const PlannedImage& image : plan.images) {
-    written.insert(output_folder / image.file);
+    images.insert(image.file);
     folders.insert((output_folder / image.file).parent_path());
   }
+  const std::set<std::string> earlier = written_before(output_folder);
+  refuse_foreign_files(output_folder, images, folders, earlier);
   for (const fs::path& folder : folders) {
     std::error_code failure;
     fs::create_directories(folder, failure);
     if (failure)
       throw Error(folder.string(), "cannot be made: " + failure.message(), "choose another output folder");
-    std::vector<fs::path> stale;
-    for (const fs::directory_entry& entry : fs::directory_iterator(folder))
-      if (is_numbered_png(entry.path()) && written.count(entry.path()) == 0) stale.push_back(entry.path());
-    for (const fs::path& file : stale) fs::remove(file, failure);
   }
+  std::string marker = std::string(kMarkerHead) + "\n";
+  for (const std::string& image : images) marker += image + "\n";
+  for (const std::string& file : earlier)
+    if (images.count(file) == 0) {
+      std::error_code ignored;
+      if (is_numbered_png(file)) fs::remove(output_folder / file, ignored);
+    }
+  write_file(output_folder / kMarkerFile, marker);
 }
 
 void write_truth(const fs::path& folder, const Scene& scene, const ImagePlan& plan, const Rig& rig,

@@ -13,9 +13,9 @@
 
 namespace lightstripe {
 
-/// Makes the images' folders and removes from them pictures of the simulator's names (digits.png) that this
-/// plan does not write: an earlier, longer run would otherwise leave frames that the session's patterns
-/// catch.
+/// Makes the images' folders and removes pictures of an earlier, longer run, which the session's patterns
+/// would catch. Only what the folder's marker file (.lightstripe-simulation) names is replaced or deleted: an
+/// Error where a file or a numbered picture of somebody else lies there, before anything is touched.
 void make_folders(const ImagePlan& plan, const std::filesystem::path& output_folder);
 
 /// The folder truth/. `stripes`: the rows of each image.

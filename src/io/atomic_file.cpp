@@ -124,11 +124,21 @@ void write_file(const fs::path& path, std::string_view text) {
   file.commit();
 }
 
+void refuse_special_file(const fs::path& path) {
+  struct stat status {};
+  if (::stat(path.c_str(), &status) != 0 || S_ISREG(status.st_mode) || S_ISDIR(status.st_mode)) return;
+  const char* what = S_ISFIFO(status.st_mode)   ? "is a pipe"
+                     : S_ISSOCK(status.st_mode) ? "is a socket"
+                                                : "is a device";
+  throw Error(path.string(), what, "give a file, e.g. write its content to one first");
+}
+
 std::string read_file(const fs::path& path, std::size_t limit) {
   const auto give_up = [&path](int error_number) {
     throw Error(path.string(), fmt::format("cannot be read ({})", reason(error_number)),
                 error_number == EACCES ? "get the right to read it, e.g. by chmod +r" : "check the path");
   };
+  refuse_special_file(path);  // before it is opened: a pipe would wait for its writer
   const Descriptor in(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
   if (in.get() < 0) give_up(errno);
   struct stat status {};

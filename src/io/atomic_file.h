@@ -36,6 +36,9 @@ class AtomicFile {
 /// The whole text at once.
 void write_file(const std::filesystem::path& path, std::string_view text);
 
+/// An Error for a pipe, a socket or a device as input: reading it twice, or to its end, is not possible.
+void refuse_special_file(const std::filesystem::path& path);
+
 /// The whole file; an Error if it cannot be read or is larger than `limit` bytes.
 std::string read_file(const std::filesystem::path& path, std::size_t limit = std::size_t{1} << 30);
 

@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "io/moving_part.h"
+#include "io/output_guard.h"
 
 namespace lightstripe {
 namespace {
@@ -158,6 +159,7 @@ std::vector<SessionSensor> checked_sensors(const std::vector<SensorFields>& fiel
   for (std::size_t i = 0; i < fields.size(); ++i) {
     const std::string key = "sensors[" + std::to_string(i) + "].";
     const std::string name = check.text(fields[i].name, key + "name");
+    check_sensor_name(name, check.file + ": " + key + "name");
     check.require(name != "rig", key + "name", "is a reserved name (poses may be `of: rig`)",
                   "choose another name");
     check.require(names.insert(name).second, key + "name", "is the name of an earlier sensor",
