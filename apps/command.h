@@ -38,11 +38,16 @@ void add_extract_command(CLI::App& app, Command& run);
 void add_calibrate_command(CLI::App& app, Command& run);
 void add_reconstruct_command(CLI::App& app, Command& run);
 void add_merge_command(CLI::App& app, Command& run);
+void add_record_command(CLI::App& app, Command& run);
+void add_live_command(CLI::App& app, Command& run);
 void add_simulate_command(CLI::App& app, Command& run);
 void add_demo_command(CLI::App& app, Command& run);
 void add_measure_command(CLI::App& app, Command& run);
+void add_conicity_command(CLI::App& app, Command& run);
 void add_verify_command(CLI::App& app, Command& run);
 void add_bench_command(CLI::App& app, Command& run);
 void add_generate_command(CLI::App& app, Command& run);
+void add_view_command(CLI::App& app, Command& run);
+void add_design_command(CLI::App& app, Command& run);
 
 }  // namespace lightstripe

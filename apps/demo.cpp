@@ -22,6 +22,7 @@
 #include "report/calibration_report.h"
 #include "report/measure_report.h"
 #include "report/preview.h"
+#include "report/scan_products.h"
 #include "truth/compare_with_truth.h"
 
 namespace lightstripe {
@@ -102,7 +103,7 @@ std::vector<QuantityError> measure_wear(const Scene& scene, const SimulationSumm
   const MeasureResult result = measure(job);
   for (const auto& warning : result.warnings) warn(warning);
   const fs::path page = folder / "measure.html";
-  write_file(page, measure_report_html(job, result, page, simulated.scan));
+  write_file(page, measure_report_html(job, result, {page, simulated.scan, "cloud.html"}));
   if (result.num_ok == 0) return {};
   return compare_wear(result.rows, job.kind, simulated.truth);
 }
@@ -125,13 +126,22 @@ ReconstructResult reconstruct_rendered(const SimulationSummary& simulated, const
   job.threads = threads;
   CloudPreview preview;
   draw_preview_of(job, preview, folder / "cloud.png");
+  ScanProducts products;
+  products.view = folder / "cloud.html", products.height_map = folder / "map.tif",
+  products.mesh = folder / "mesh.stl";
+  job.before_end = [&job, products, before = job.before_end] {
+    before();
+    write_scan_products(job, products);
+  };
   const InterruptWatch interrupt;
   return reconstruct(job, {}, interrupt.token());
 }
 
 std::string list_of_files(const fs::path& folder, bool measured) {
   return fmt::format(
-      "\ncloud      {0}/cloud.ply (picture: {0}/cloud.png)\nsections   {0}/profiles.csv\n"
+      "\nlook       {0}/cloud.html (in a browser)\n"
+      "cloud      {0}/cloud.ply (picture: {0}/cloud.png)\nheight map {0}/map.tif\n"
+      "mesh       {0}/mesh.stl\nsections   {0}/profiles.csv\n"
       "{1}overlays   {0}/overlay/*.png\nrig        {0}/rig.yaml (report: {0}/calibration.html)\n"
       "truth      {0}/truth/",
       folder.string(),

@@ -31,7 +31,7 @@ Channel parse_channel(const std::string& text) {
   for (const auto& [value, name] : enum_names(Channel{}))
     if (name == text) return value;
   throw Error("--channel", "'" + text + "' is no channel",
-              "use auto, gray, red, green, blue, red-excess, green-excess or blue-excess");
+              "use auto, gray, or red, green or blue, alone or with -excess, -laser or -clipped");
 }
 
 int run_extract(const ExtractArguments& arguments) {
@@ -49,12 +49,13 @@ int run_extract(const ExtractArguments& arguments) {
   std::string lost_overlay;  // a picture that cannot be drawn does not cost the table
   std::mutex mutex;
   std::vector<std::string> explanations(arguments.explain ? job.images.size() : 0);
-  job.on_image = [&](std::size_t i, const Image8& image, const ExtractionResult& result) {
-    if (arguments.explain) explanations[i] = explain_extraction(job.images[i], job.extraction, result);
+  job.on_image = [&](std::size_t i, const SeenImage& seen) {
+    if (arguments.explain)
+      explanations[i] = explain_extraction(job.images[i], seen.channel, job.extraction, seen.result);
     if (overlays.empty()) return;
     try {
-      write_overlay(overlays[i], image, result);
-      if (arguments.explain) write_histogram(overlays[i], image, result);
+      write_overlay(overlays[i], job.images[i], seen.result);
+      if (arguments.explain) write_histogram(overlays[i], seen.image, seen.result);
     } catch (const Error& error) {
       const std::scoped_lock lock(mutex);
       if (lost_overlay.empty()) lost_overlay = error.what();
@@ -84,7 +85,7 @@ void add_extract_command(CLI::App& app, Command& run) {
   add_common_options(*command, arguments->common, "table of points (default: stripes.csv)");
   command->add_option(
       "--channel", arguments->channel,
-      "of colour images: auto, gray, red, green, blue, red-excess, green-excess, blue-excess");
+      "of colour images: auto, gray, or red, green, blue, alone or with -excess, -laser, -clipped");
   command->add_option("--overlay", arguments->overlay_folder, "folder for pictures with the lines drawn in");
   command->add_flag("--explain", arguments->explain,
                     "print how the thresholds came about; with --overlay also draw the histogram");

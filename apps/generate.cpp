@@ -2,24 +2,48 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <memory>
 
 #include "apps/command.h"
 #include "apps/options.h"
 #include "apps/self_description.h"
+#include "core/error.h"
 #include "io/atomic_file.h"
+#include "io/session_file.h"
+#include "pipeline/conformance.h"
+#include "report/board_drawing.h"
 
 namespace lightstripe {
 namespace {
 
 struct GenerateArguments {
   CommonOptions common;
-  std::string what;
+  std::string what, target, references;
 };
 
+/// The board as a drawing to scale; the format follows from the file's name.
+std::string board_text(const GenerateArguments& arguments) {
+  const std::filesystem::path output = arguments.common.output;
+  const std::string kind = output.extension().string();
+  if (!output.empty() && kind != ".svg" && kind != ".pdf")
+    throw Error(output.string(), "is neither .svg nor .pdf", "name the format by the file's ending");
+  const std::string standard = "{type: checkerboard, inner_corners: [11, 8], square: 10}";
+  const std::string given = arguments.target.empty() ? standard : arguments.target;
+  std::string aprilgrid;
+  const Target target = read_target(given, "", &aprilgrid);
+  const BoardDrawing drawing = draw_target(target, aprilgrid);
+  return kind == ".pdf" ? to_pdf(drawing) : to_svg(drawing);
+}
+
+std::string generated(const GenerateArguments& arguments, const CLI::App& app) {
+  if (arguments.what == "board") return board_text(arguments);
+  if (arguments.what == "conformance") return conformance_page(arguments.references);
+  return arguments.what == "man-page" ? man_page(app, LIGHTSTRIPE_VERSION) : bash_completion(app);
+}
+
 int run_generate(const GenerateArguments& arguments, const CLI::App& app) {
-  const std::string text =
-      arguments.what == "man-page" ? man_page(app, LIGHTSTRIPE_VERSION) : bash_completion(app);
+  const std::string text = generated(arguments, app);
   if (arguments.common.output.empty()) {
     print_result(text);
   } else {
@@ -31,12 +55,19 @@ int run_generate(const GenerateArguments& arguments, const CLI::App& app) {
 }  // namespace
 
 void add_generate_command(CLI::App& app, Command& run) {
-  auto* command = app.add_subcommand("generate", "the man page, or the completion script for bash");
-  command->group("");  // for those who package the program: not in --help's list
+  auto* command = app.add_subcommand(
+      "generate", "a calibration board to print; the man page, or the completion script for bash");
   auto arguments = std::make_shared<GenerateArguments>();
-  command->add_option("what", arguments->what, "man-page or bash-completion")
+  command
+      ->add_option("what", arguments->what,
+                   "board, man-page, bash-completion, or conformance (docs/conformance.md)")
       ->required()
-      ->check(CLI::IsMember({"man-page", "bash-completion"}));
+      ->check(CLI::IsMember({"board", "man-page", "bash-completion", "conformance"}));
+  command->add_option("--target", arguments->target,
+                      "the board: a session file, or its target as text, e.g. '{type: circles, grid: [7, 7], "
+                      "pitch: 37.5}' (default: a checkerboard of 11 x 8 inner corners, 10 mm)");
+  command->add_option("--references", arguments->references,
+                      "conformance: folder with reference/conicity and data/miniprof");
   add_common_options(*command, arguments->common, "file (default: standard output)");
   command->callback(
       [arguments, &app, &run] { run = [arguments, &app] { return run_generate(*arguments, app); }; });

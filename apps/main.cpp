@@ -90,9 +90,14 @@ int run(int argc, char** argv) {
   lightstripe::add_verify_command(app, command);
   lightstripe::add_reconstruct_command(app, command);
   lightstripe::add_merge_command(app, command);
+  lightstripe::add_record_command(app, command);
+  lightstripe::add_live_command(app, command);
   lightstripe::add_simulate_command(app, command);
   lightstripe::add_measure_command(app, command);
+  lightstripe::add_conicity_command(app, command);
   lightstripe::add_bench_command(app, command);
+  lightstripe::add_view_command(app, command);
+  lightstripe::add_design_command(app, command);
   lightstripe::add_generate_command(app, command);
   if (argc < 2) {
     std::fputs(app.help().c_str(), stderr);

@@ -9,9 +9,14 @@
 #include "apps/command.h"
 #include "apps/options.h"
 #include "apps/progress.h"
+#include "apps/table_style.h"
+#include "core/error.h"
 #include "io/atomic_file.h"
 #include "io/images.h"
+#include "pipeline/features_job.h"
 #include "pipeline/measurement_table.h"
+#include "report/cloud_deviation.h"
+#include "report/features_report.h"
 #include "report/measure_report.h"
 #include "report/section_drawing.h"
 
@@ -22,8 +27,10 @@ namespace fs = std::filesystem;
 
 struct MeasureArguments {
   CommonOptions common;
-  MeasureJob job;  ///< what needs no merging is parsed into it
-  std::string limits_file, report, scan;
+  MeasureJob job;    ///< what needs no merging is parsed into it
+  std::string kind;  ///< rail, wheel or features
+  std::string features, limits_file, report, scan, view;
+  TableStyle style = TableStyle::kPlain;
   std::vector<std::int64_t> plot;
   Overrides rail, wheel, registration, limit;
 };
@@ -103,8 +110,14 @@ int run_measure(const MeasureArguments& arguments) {
   const MeasureJob job = job_of(arguments);
   const MeasureResult result = measure(job, progress_line(arguments.common.quiet));
   write_plots(arguments, job, result);
+  if (!job.table.empty()) apply_table_style(job.table, arguments.style);
+  if (!arguments.view.empty())
+    write_file(arguments.view,
+               cloud_view_html(view_of_sections(job, result, arguments.view, arguments.scan)));
   if (!arguments.report.empty())
-    write_file(arguments.report, measure_report_html(job, result, arguments.report, arguments.scan));
+    write_file(arguments.report, measure_report_html(job, result,
+                                                     {arguments.report, arguments.scan,
+                                                      link_to(arguments.view, arguments.report)}));
   summarise(arguments, job, result);
   if (!result.usable()) return not_usable(result.not_usable);
   if (result.num_ok == 0)
@@ -115,19 +128,47 @@ int run_measure(const MeasureArguments& arguments) {
   return kExitDone;
 }
 
+/// What a user names in a file instead of a rail or a wheel.
+int run_features(const MeasureArguments& arguments) {
+  if (arguments.features.empty())
+    throw Error("--features", "is missing",
+                "name the file that says what to measure; see configs/features.yaml");
+  FeaturesJob job;
+  job.profiles = arguments.job.profiles, job.features = arguments.features;
+  if (!arguments.common.output.empty()) job.table = arguments.common.output;
+  job.threads = arguments.common.threads;
+  const FeaturesResult result = measure_features_job(job);
+  if (!job.table.empty()) apply_table_style(job.table, arguments.style);
+  if (!arguments.report.empty()) write_file(arguments.report, features_report_html(job, result));
+  for (std::size_t i = 0; i < result.along.size(); ++i) {
+    const Estimate& estimate = result.along[i];
+    say(arguments.common, result.file.along[i].name + ": " +
+                              (estimate.value ? fmt::format("{:.4f} mm, sigma {:.4f}", *estimate.value,
+                                                            estimate.sigma.value_or(0))
+                                              : estimate.reason));
+  }
+  say(arguments.common, fmt::format("{} of {} sections complete -> {}", result.num_complete,
+                                    result.rows.size(), job.table.string()));
+  return result.num_complete > 0 || result.file.measurements.empty()
+             ? kExitDone
+             : not_usable("no section shows all that is measured; the column `missing` says why");
+}
+
 }  // namespace
 
 void add_measure_command(CLI::App& app, Command& run) {
   auto* command = app.add_subcommand("measure", "sections to wear and dimensions of rails and wheels");
   auto arguments = std::make_shared<MeasureArguments>();
-  const std::map<std::string, ObjectKind> kinds{{"rail", ObjectKind::kRail}, {"wheel", ObjectKind::kWheel}};
   command
       ->add_option("profiles", arguments->job.profiles,
                    "sections: profiles.csv, or one of .ban .whl .mpt .prr .prw")
       ->required();
-  command->add_option("--kind", arguments->job.kind, "rail or wheel")
-      ->transform(CLI::CheckedTransformer(kinds))
+  command
+      ->add_option("--kind", arguments->kind, "rail, wheel, or features (of any object, named in --features)")
+      ->check(CLI::IsMember({"rail", "wheel", "features"}))
       ->required();
+  command->add_option("--features", arguments->features,
+                      "with --kind features: file of features and what to measure between them (YAML)");
   command->add_option(
       "--nominal", arguments->job.reference.nominal,
       "the new rail or wheel: a name, an outline file, a recorded profile (baseline), or auto [60E1, S1002]");
@@ -149,6 +190,10 @@ void add_measure_command(CLI::App& app, Command& run) {
   command->add_option("--scan", arguments->scan, "scan file: the report links to its pictures");
   command->add_option("--limits", arguments->limits_file, "file of limits (YAML)");
   command->add_option("--report", arguments->report, "report to look at (HTML)");
+  command->add_option(
+      "--view", arguments->view,
+      "page that shows the sections in 3D, coloured by their deviation from the nominal (HTML)");
+  add_table_style_option(*command, arguments->style);
   command->add_option("--plot", arguments->plot,
                       "draws the section of this frame (PNG beside the table); may be repeated");
   command->add_option("--export", arguments->job.export_folder,
@@ -158,14 +203,20 @@ void add_measure_command(CLI::App& app, Command& run) {
   command->add_option("--export-format", arguments->job.export_format, "miniprof or simpack [miniprof]")
       ->transform(CLI::CheckedTransformer(formats));
   command->add_option("--rig", arguments->job.rig, "rig file, for the diameter's predicted error");
-  add_common_options(*command, arguments->common, "table of measurements (default: measurements.csv)");
+  add_common_options(*command, arguments->common,
+                     "table of measurements, .csv or .xlsx (default: measurements.csv)");
   add_field_options<RailOptions>(*command, "", arguments->rail);
   add_field_options<WheelOptions>(*command, "wheel.", arguments->wheel);
   add_field_options<RegistrationOptions>(*command, "registration.", arguments->registration);
   add_field_options<Limits>(*command, "limit.", arguments->limit);
   command->add_option("--max-overlap-gap-mm", arguments->job.options.max_overlap_gap_mm,
                       "between two sensors on the head: above, the calibration is in doubt [0.1]");
-  command->callback([arguments, &run] { run = [arguments] { return run_measure(*arguments); }; });
+  command->callback([arguments, &run] {
+    arguments->job.kind = arguments->kind == "wheel" ? ObjectKind::kWheel : ObjectKind::kRail;
+    run = [arguments] {
+      return arguments->kind == "features" ? run_features(*arguments) : run_measure(*arguments);
+    };
+  });
 }
 
 }  // namespace lightstripe

@@ -12,17 +12,24 @@
 #include "io/images.h"
 #include "io/number_text.h"
 #include "report/preview.h"
+#include "report/scan_products.h"
 
 namespace lightstripe {
 namespace {
+
+namespace fs = std::filesystem;
 
 struct ReconstructArguments {
   CommonOptions common;
   std::string scan, rig, profiles, preview;
   std::string frames;  ///< "A:B": frames A to B - 1; either may be left out
   bool strict = false, resume = false;
+  bool follow = false;
+  double idle_s = 0;
   bool dry_run = false;  ///< only tell which frames there are
   double checkpoint_s = 1;
+  ScanProducts products;
+  std::string filter;
   Overrides extraction;
 };
 
@@ -91,8 +98,65 @@ ReconstructJob job_of(const ReconstructArguments& arguments) {
   job.strict = arguments.strict;
   job.resume = arguments.resume;
   job.checkpoint_s = arguments.checkpoint_s;
+  job.follow = arguments.follow;
+  job.idle_s = arguments.idle_s;
   job.threads = arguments.common.threads;
   return job;
+}
+
+ScanProducts products_of(const ReconstructArguments& arguments, const ReconstructJob& job) {
+  ScanProducts products = arguments.products;
+  if (!arguments.filter.empty()) products.filter = parse_cloud_filter(arguments.filter);
+  check_scan_products(job, products);
+  return products;
+}
+
+/// Behind what the job does at its end already (a preview).
+void make_products_of(ReconstructJob& job, const ScanProducts& products, std::vector<std::string>& lines) {
+  if (!products.any()) return;
+  job.before_end = [&job, &lines, products, before = job.before_end] {
+    if (before) before();
+    lines = write_scan_products(job, products);
+  };
+}
+
+void add_product_options(CLI::App& command, ReconstructArguments& arguments) {
+  ScanProducts& products = arguments.products;
+  const auto positive = CLI::PositiveNumber;
+  command.add_option("--view", products.view, "page to look at the cloud in a browser (HTML)")
+      ->group("Also made");
+  command
+      .add_option("--height-map", products.height_map,
+                  "heights on a raster (.tif, and a 16-bit .png beside it)")
+      ->group("Also made");
+  command.add_option("--raster", products.map.raster_mm, "of the height map, mm [1]")
+      ->check(positive)
+      ->group("Also made");
+  command
+      .add_option("--bridge", products.map.bridge_mm,
+                  "height map: gaps within a stripe up to this are closed, mm [0]")
+      ->check(CLI::NonNegativeNumber)
+      ->group("Also made");
+  command.add_option("--mesh", products.mesh, "surface of triangles (.stl, .ply, .obj)")->group("Also made");
+  command
+      .add_option("--mesh-max-edge", products.mesh_options.max_edge_mm,
+                  "longer edges are gaps, mm [3 usual steps]")
+      ->check(positive)
+      ->group("Also made");
+  command
+      .add_option("--mesh-max-tilt", products.mesh_options.max_tilt_deg,
+                  "steeper against the line of sight is a jump, degrees [85]")
+      ->check(CLI::Range(1.0, 90.0))
+      ->group("Also made");
+  command
+      .add_option("--mesh-spacing", products.mesh_options.spacing_mm,
+                  "thins the stripes of the mesh, mm [all points]")
+      ->check(positive)
+      ->group("Also made");
+  command
+      .add_option("--filter", arguments.filter,
+                  "of the cloud, first of all: outliers, outliers=SIGMAS, voxel=MM, joined by commas")
+      ->group("Also made");
 }
 
 int run_reconstruct(const ReconstructArguments& arguments) {
@@ -103,10 +167,14 @@ int run_reconstruct(const ReconstructArguments& arguments) {
     return kExitDone;
   }
   CloudPreview preview;
-  if (!arguments.preview.empty()) {
-    job.other_outputs.push_back(arguments.preview);
-    draw_preview_of(job, preview, arguments.preview);
-  }
+  const ScanProducts products = products_of(arguments, job);
+  for (const fs::path& output : {fs::path(arguments.preview), products.view, products.height_map, products.mesh})
+    if (!output.empty()) job.other_outputs.push_back(output);
+  if (!products.height_map.empty())
+    job.other_outputs.push_back(fs::path(products.height_map).replace_extension(".png"));
+  if (!arguments.preview.empty()) draw_preview_of(job, preview, arguments.preview);
+  std::vector<std::string> made;
+  make_products_of(job, products, made);
   const InterruptWatch interrupt;
   const ReconstructResult result = reconstruct(job, progress_line(arguments.common.quiet), interrupt.token());
   warn_of_skipped(result, job.cloud.string());
@@ -116,6 +184,7 @@ int run_reconstruct(const ReconstructArguments& arguments) {
       fmt::format("{} frames, {} points in {:.2f} s ({:.1f} frames/s) -> {}", result.summary.frames,
                   result.summary.points, result.seconds,
                   static_cast<double>(result.frames_now) / result.seconds, job.cloud.string()));
+  for (const std::string& line : made) say(arguments.common, line);
   return kExitDone;
 }
 
@@ -135,11 +204,19 @@ void add_reconstruct_command(CLI::App& app, Command& run) {
                     "a picture that is missing or cannot be read ends the run");
   command->add_flag("--dry-run", arguments->dry_run,
                     "read the scan file, print the frames that would be reconstructed (A:B), and stop");
+  command->add_flag(
+      "--follow", arguments->follow,
+      "the recording is still being written, or is a camera: go on until it is over, or Ctrl-C");
+  command
+      ->add_option("--idle", arguments->idle_s,
+                   "with --follow: over when nothing has come for so many seconds [never]")
+      ->check(CLI::NonNegativeNumber);
   command->add_flag("--resume", arguments->resume, "go on where an interrupted run was ended");
   command
       ->add_option("--checkpoint", arguments->checkpoint_s,
                    "seconds between the places where a run can be resumed [1]")
       ->check(CLI::Range(0.0, 3600.0));
+  add_product_options(*command, *arguments);
   add_field_options<ExtractionOptions>(*command, "extraction.", arguments->extraction);
   command->callback([arguments, &run] { run = [arguments] { return run_reconstruct(*arguments); }; });
 }

@@ -4,8 +4,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
+#include "calib/adjust/hand_eye.h"
 #include "calib/adjust/joint_adjustment.h"
 #include "calib/adjust/rig_frame.h"
 #include "calib/adjust/session_views.h"
@@ -43,10 +45,10 @@ void append(std::vector<std::string>& to, std::vector<std::string> from) {
 std::vector<LensChoice> lens_choices(const InitialValues& start, const CalibrationOptions& options) {
   std::vector<LensChoice> choices;
   for (std::size_t s = 0; s < start.state.sensors.size(); ++s) {
-    const auto& given = start.measurements.given_cameras[s];
+    const auto& given = start.session.given_cameras[s];
     const bool fixed = given && given->fixed;
     if (options.lens != LensModel::kAuto || fixed) {
-      choices.push_back({start.measurements.sensor_names[s], options.lens, {}});
+      choices.push_back({start.session.sensor_names[s], options.lens, {}});
     } else {
       choices.push_back(choose_lens(start, static_cast<int>(s), options));
     }
@@ -61,52 +63,92 @@ std::vector<LensModel> models_of(const std::vector<LensChoice>& choices) {
 }
 
 /// The measuring range: declared, or where boards showed stripes and half of that beyond on both sides.
-std::array<double, 2> depth_range(const SessionViews& measurements, const JointAdjustment& adjustment,
-                                  int sensor, const CalibrationOptions& options) {
+std::array<double, 2> depth_range(const BoardSpread& spread, const CalibrationOptions& options) {
   if (options.range_far_mm > 0) return {options.range_near_mm, options.range_far_mm};
-  const DepthRange seen = stripe_depths(measurements, adjustment.state, adjustment.measurements, sensor);
+  const DepthRange& seen = spread.stripe_depths;
   const double beyond = 0.5 * (seen.far_mm - seen.near_mm);
   return {std::max(0.0, seen.near_mm - beyond), seen.far_mm + beyond};
+}
+
+/// Sensors and motion of `result.rig`; what was known before the adjustment stays.
+void take_rig(const SessionViews& session, const JointAdjustment& adjustment,
+              const std::vector<BoardSpread>& spreads, const Eigen::Vector3d& up,
+              const CalibrationOptions& options, CalibrationResult& result) {
+  Rig rig = rig_of(session, adjustment.state, up);
+  result.rig.sensors = std::move(rig.sensors);
+  for (std::size_t s = 0; s < result.rig.sensors.size(); ++s)
+    result.rig.sensors[s].depth_range_mm = depth_range(spreads[s], options);
+  result.rig.motion = rig.motion;
+}
+
+/// Where the rig sits on the tool, if poses of the tool were given.
+void take_tool(const CalibrationObservations& observations, const SessionViews& session,
+               const JointAdjustment& adjustment, CalibrationResult& result) {
+  if (!observations.tool_poses) return;
+  std::vector<ToolView> views;
+  for (const auto& tool : *observations.tool_poses) {
+    const auto pose = std::find(session.poses.begin(), session.poses.end(), tool.pose);
+    const auto index = static_cast<int>(pose - session.poses.begin());
+    const bool seen = std::any_of(session.views.begin(), session.views.end(),
+                                  [&](const auto& view) { return view.pose == index; });
+    if (pose != session.poses.end() && seen)
+      views.push_back({tool.pose, tool.base_from_tool,
+                       adjustment.state.first_from_board[static_cast<std::size_t>(index)]});
+  }
+  const HandEye found = find_hand_eye(views);
+  const Rigid3 rig_from_first = result.rig.sensors.front().rig_from_camera;
+  result.rig.tool_from_rig = found.tool_from_first * rig_from_first.inverse();
+  append(result.rig.quality.warnings, found.left_out);
+  result.rig.quality.sigma["tool.rotation_deg"] = found.rotation_sigma_deg;
+  result.rig.quality.sigma["tool.translation_mm"] = found.translation_sigma_mm;
+}
+
+/// Predicted errors, cross-validation and what else the adjustment tells of itself.
+void assess(const SessionViews& session, const JointAdjustment& adjustment,
+            const std::vector<BoardSpread>& spreads, const Eigen::Vector3d& up,
+            const CalibrationOptions& options, CalibrationResult& result) {
+  auto& quality = result.rig.quality;
+  append(quality.warnings, warnings_about(session, adjustment, result.summary.views, spreads));
+  quality.sigma = parameter_sigmas(session, adjustment);
+  const auto section = section_uncertainty(session, adjustment, up);
+  quality.section_shape_sigma_mm = section.shape_mm;
+  quality.section_absolute_sigma_mm = section.absolute_mm;
+  const CalibrationDiagnosis& diagnosis =
+      result.diagnosis.emplace(diagnose(session, adjustment, spreads, up, options));
+  if (diagnosis.cross_validation.done) quality.cross_validation_ratio = diagnosis.cross_validation.ratio();
+  quality.weakest = diagnosis.weakest;
+  append(quality.warnings, warnings_about(diagnosis.cross_validation));
 }
 
 /// The stages in their order; throws NotUsable with what was found so far in `result`.
 void calibrate(const CalibrationObservations& observations, const CalibrationOptions& options,
                CalibrationResult& result) {
   const InitialValues start = initial_values(prepare_session_views(observations));
-  const SessionViews& measurements = start.measurements;
-  auto& quality = result.rig.quality;
-  quality.warnings = start.warnings;
+  const SessionViews& session = start.session;
+  result.rig.quality.warnings = start.warnings;
 
   result.summary.lenses = lens_choices(start, options);
   const JointAdjustment adjustment =
-      adjust_jointly(measurements, start.state, models_of(result.summary.lenses), options);
+      adjust_jointly(session, start.state, models_of(result.summary.lenses), options);
   result.summary.board_warp_mm = adjustment.state.board_warp_mm;
   result.summary.iterations = adjustment.iterations;
-  result.summary.views = view_residuals(measurements, adjustment.measurements);
-  quality.sensors = sensor_quality(measurements, adjustment.measurements);
-  refuse_bad_adjustment(measurements, adjustment, quality.sensors);
+  result.summary.views = view_residuals(session, adjustment.residuals);
+  result.summary.stripes = stripe_agreement(session, adjustment);
+  result.rig.quality.sensors = sensor_quality(session, adjustment.residuals);
+  const std::vector<BoardSpread> spreads = board_spreads(session, adjustment);
+  refuse_bad_adjustment(session, adjustment, result.rig.quality.sensors, spreads);
+  refuse_disagreement(session, adjustment);
+  refuse_wrong_unit(session, adjustment, options);
 
-  Rig rig = rig_of(measurements, adjustment.state, observations.up);
-  result.rig.sensors = std::move(rig.sensors);
-  for (std::size_t s = 0; s < result.rig.sensors.size(); ++s)
-    result.rig.sensors[s].depth_range_mm =
-        depth_range(measurements, adjustment, static_cast<int>(s), options);
-  result.rig.motion = rig.motion;
-  append(quality.warnings, warnings_about(measurements, adjustment, result.summary.views));
-  quality.sigma = parameter_sigmas(measurements, adjustment);
-  const auto section = section_uncertainty(measurements, adjustment, observations.up);
-  quality.section_shape_sigma_mm = section.shape_mm;
-  quality.section_absolute_sigma_mm = section.absolute_mm;
-  const CalibrationDiagnosis& diagnosis =
-      result.diagnosis.emplace(diagnose(measurements, adjustment, observations.up, options));
-  quality.cross_validation_ratio = diagnosis.cross_validation.ratio();
-  quality.weakest = diagnosis.weakest;
-  append(quality.warnings, warnings_about(diagnosis.cross_validation));
-  refuse_parallel_lasers(measurements, adjustment.state);
-  refuse_extrapolation(measurements, adjustment, options);
-  refuse_uncertain_section(adjustment, section.shape_mm);
-  refuse_oblong_pixels(measurements, adjustment.state);
-  refuse_folded_image(measurements, adjustment.state);
+  take_rig(session, adjustment, spreads, observations.up, options, result);
+  assess(session, adjustment, spreads, observations.up, options, result);
+  take_tool(observations, session, adjustment, result);
+  refuse_parallel_lasers(session, spreads);
+  refuse_extrapolation(session, spreads, options);
+  refuse_uncertain_section(adjustment, result.rig.quality.section_shape_sigma_mm);
+  refuse_oblong_pixels(session, adjustment.state);
+  refuse_folded_image(session, adjustment.state);
+  refuse_contradicting_halves(result.diagnosis->cross_validation, adjustment);
 }
 
 }  // namespace

@@ -66,12 +66,20 @@ struct LensChoice {
   std::vector<LensTrial> trials;  ///< empty where the model was given, or the views were too few
 };
 
+/// Stripes found on the boards, and those of them that lie in the laser plane at the end.
+struct StripeAgreement {
+  std::string sensor;
+  int plane = 0;
+  int found = 0, agreeing = 0;
+};
+
 /// Whether and how well it went; starts as "not run".
 struct CalibrationSummary {
   bool usable = false;
   std::string message = "not run";  ///< the reason where it is not usable: what is wrong, what to do
   int iterations = 0;
   std::vector<ViewResidual> views;
+  std::vector<StripeAgreement> stripes;                     ///< for each laser plane
   std::vector<LensChoice> lenses;                           ///< for each sensor
   Eigen::Vector2d board_warp_mm = Eigen::Vector2d::Zero();  ///< bow at the board's middle, along x and y
 };

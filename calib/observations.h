@@ -13,6 +13,7 @@
 #include "core/camera.h"
 #include "core/rig.h"
 #include "core/stripe.h"
+#include "core/transform.h"
 
 namespace lightstripe {
 
@@ -34,7 +35,21 @@ struct BoardView {
   std::string pose;
   std::vector<Eigen::Vector2d> corners;  ///< px, in the order of Target::corner; see is_seen()
   std::vector<std::vector<StripePoint>>
-      stripes;  ///< for each laser plane the points on the board (may be empty)
+      stripes;               ///< for each laser plane the points on the board (may be empty)
+  bool laser_apart = false;  ///< the stripe was seen in a picture of its own, paired with the board's by name
+};
+
+/// The laser on a block or plate whose top lies at a known height over the board on the bed.
+struct HeightView {
+  std::string image;  ///< for messages
+  double height_mm = 0;
+  std::vector<std::vector<StripePoint>> lines;  ///< straight lines in the picture, one of them on the top
+};
+
+/// One board lying flat on the bed, and pictures of known heights over its surface.
+struct BedObservations {
+  BoardView board;  ///< without stripes
+  std::vector<HeightView> heights;
 };
 
 struct SensorObservations {
@@ -43,6 +58,7 @@ struct SensorObservations {
   int laser_planes = 1;
   std::vector<BoardView> views;
   std::optional<GivenCamera> given_camera{};
+  std::optional<BedObservations> bed{};
 };
 
 /// A fixed board seen from known positions of travel.
@@ -54,11 +70,18 @@ struct MotionObservations {
   std::vector<double> travel;  ///< for each view, mm or degrees
 };
 
+/// The pose of a robot's or CMM's tool while a board view was taken; the board is fixed in the base.
+struct ToolPose {
+  std::string pose;  ///< of BoardView
+  Rigid3 base_from_tool;
+};
+
 struct CalibrationObservations {
   Target target;
   std::vector<SensorObservations> sensors;
   std::optional<MotionObservations> motion;
-  Eigen::Vector3d up{0, -1, 0};  ///< hint, first sensor's camera frame
+  std::optional<std::vector<ToolPose>> tool_poses{};  ///< the rig sits on the tool: hand-eye calibration
+  Eigen::Vector3d up{0, -1, 0};                       ///< hint, first sensor's camera frame
 };
 
 }  // namespace lightstripe

@@ -44,15 +44,16 @@ endfunction()
 
 # What a static library of ours needs in `pkg-config --libs`: modules that Debian has, and plain libraries.
 set(pkg_config_requires_core eigen3)
+set(pkg_config_requires_parallel tbb)
 set(pkg_config_requires_io fmt yaml-cpp opencv4 libdeflate libtiff-4)
 set(pkg_config_requires_extraction opencv4 libhwy)
-set(pkg_config_requires_calib fmt opencv4 tbb)
+set(pkg_config_requires_calib fmt opencv4)
 set(pkg_config_libs_calib -lceres -lglog)
-set(pkg_config_requires_reconstruct fmt tbb pcl_io)
+set(pkg_config_requires_reconstruct fmt)
 set(pkg_config_requires_measure fmt)
-set(pkg_config_requires_simulate fmt tbb opencv4)
-set(pkg_config_requires_pipeline fmt tbb)
-set(pkg_config_requires_report fmt tbb opencv4)
+set(pkg_config_requires_simulate fmt opencv4)
+set(pkg_config_requires_pipeline fmt opencv4)
+set(pkg_config_requires_report fmt opencv4)
 
 # lightstripe_install_pkg_config(<part> <parts below it>): lightstripe-<part>.pc.
 function(lightstripe_install_pkg_config part deps)

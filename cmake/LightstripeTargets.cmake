@@ -39,26 +39,33 @@ endif()
 set(lightstripe_precompiled <algorithm> <cmath> <filesystem> <functional> <map> <memory> <optional> <string> <vector>
                             <Eigen/Dense> <fmt/format.h>)
 
-# lightstripe_leave_out_parts(): takes out of LIGHTSTRIPE_PARTS what Ceres or PCL are missing for, and says so.
+# lightstripe_leave_out_parts(): takes out of LIGHTSTRIPE_PARTS what Ceres is missing for, and says so.
 function(lightstripe_leave_out_parts)
   find_package(Ceres 2.1 QUIET)
-  find_package(PkgConfig REQUIRED)
-  pkg_check_modules(pcl_found QUIET pcl_io)
   if(NOT Ceres_FOUND)
     list(REMOVE_ITEM LIGHTSTRIPE_PARTS calib pipeline report truth)
     message(STATUS "calib, pipeline, report, truth: left out (apt install libceres-dev)")
   endif()
-  if(NOT pcl_found_FOUND)
-    list(REMOVE_ITEM LIGHTSTRIPE_PARTS reconstruct pipeline report truth)
-    message(STATUS "reconstruct, pipeline, report, truth: left out (apt install libpcl-dev)")
-  endif()
   set(LIGHTSTRIPE_PARTS ${LIGHTSTRIPE_PARTS} PARENT_SCOPE)
 endfunction()
 
-# lightstripe_library(<folder's name> DEPS <folders it may include> EXTERNAL <libraries of others> PRECOMPILE <headers>)
-# makes lightstripe::<name> of every .cpp file below the current folder.
+# cmake/layers.txt: LIGHTSTRIPE_PARTS, the libraries in the table's order, and layers_of_<part>, those that a part may include.
+set(layers_file ${CMAKE_CURRENT_LIST_DIR}/layers.txt)
+set_property(DIRECTORY ${PROJECT_SOURCE_DIR} APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${layers_file})
+file(STRINGS ${layers_file} layer_rows REGEX "^library ")
+foreach(row ${layer_rows})
+  if(NOT row MATCHES "^library +[|] +([a-z]+) +[|] +([a-z ]*)[|]")
+    message(FATAL_ERROR "${layers_file}: '${row}' is no row of the table")
+  endif()
+  list(APPEND LIGHTSTRIPE_PARTS ${CMAKE_MATCH_1})
+  string(REGEX MATCHALL "[a-z]+" layers_of_${CMAKE_MATCH_1} "${CMAKE_MATCH_2}")
+endforeach()
+
+# lightstripe_library(<folder's name> EXTERNAL <libraries of others> PRECOMPILE <headers>) makes lightstripe::<name> of every .cpp
+# file below the current folder; it links what cmake/layers.txt lets it include.
 function(lightstripe_library name)
-  cmake_parse_arguments(ARG "" "" "DEPS;EXTERNAL;PRECOMPILE" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "EXTERNAL;PRECOMPILE" ${ARGN})
+  set(deps ${layers_of_${name}})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
   add_library(lightstripe_${name} STATIC ${sources})
   add_library(lightstripe::${name} ALIAS lightstripe_${name})
@@ -67,9 +74,9 @@ function(lightstripe_library name)
                                                         $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src>
                                                         $<INSTALL_INTERFACE:${LIGHTSTRIPE_INSTALL_HEADERS}>)
   target_compile_features(lightstripe_${name} PUBLIC cxx_std_20)
-  set_property(GLOBAL PROPERTY LIGHTSTRIPE_DEPS_${name} "${ARG_DEPS}")
-  list(TRANSFORM ARG_DEPS PREPEND lightstripe::)
-  target_link_libraries(lightstripe_${name} PUBLIC ${ARG_DEPS} ${ARG_EXTERNAL} PRIVATE $<BUILD_INTERFACE:lightstripe_flags>)
+  set_property(GLOBAL PROPERTY LIGHTSTRIPE_DEPS_${name} "${deps}")
+  list(TRANSFORM deps PREPEND lightstripe::)
+  target_link_libraries(lightstripe_${name} PUBLIC ${deps} ${ARG_EXTERNAL} PRIVATE $<BUILD_INTERFACE:lightstripe_flags>)
   lightstripe_precompile(lightstripe_${name} ${ARG_PRECOMPILE})
   if(LIGHTSTRIPE_SANITIZE MATCHES "address|thread" AND name MATCHES "core|simulate")
     # Tests spend most of their time in rendering; at -O1 Eigen's temporaries are in memory, and each access is checked.

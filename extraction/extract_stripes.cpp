@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "extraction/compare/grey_value_lines.h"
 #include "extraction/compare/hu_recursive.h"
@@ -13,6 +12,7 @@
 #include "extraction/image/binned_image.h"
 #include "extraction/image/image_facts.h"
 #include "extraction/image/stripe_width.h"
+#include "extraction/kernels/width_rule.h"
 #include "extraction/lines/curvature_bias.h"
 #include "extraction/lines/line_ends.h"
 #include "extraction/lines/line_junctions.h"
@@ -37,7 +37,7 @@ struct Run {
 };
 
 double sigma_of_width(double full_width) {
-  return std::clamp(full_width / (2 * std::numbers::sqrt3), kLeastSigma, kLargestSigma);
+  return std::clamp(sigma_of_full_width(full_width), kLeastSigma, kLargestSigma);
 }
 
 template <class T>
@@ -62,7 +62,7 @@ FollowRule follow_rule(const Run<T>& run) {
   FollowRule rule;
   rule.brightest = run.facts.histogram.largest;
   rule.stop_after = run.options.stop_after;
-  rule.least_length = run.options.lines.min_length * 2 * std::numbers::sqrt3 * run.result.sigma;
+  rule.least_length = run.options.lines.min_length * full_width_of(run.result.sigma);
   if (!run.parsed.start) return rule;
   rule.has_start = true;
   rule.start_x = run.parsed.start->x - (run.parsed.roi ? run.parsed.roi->x : 0);
@@ -70,47 +70,99 @@ FollowRule follow_rule(const Run<T>& run) {
   return rule;
 }
 
+/// Measures and judges the lines of all scales.
+template <class T>
+void filter_groups(const Run<T>& run, double width_slack) {
+  ExtractionWorkspace& w = run.w;
+  w.facts.resize(std::max(w.facts.size(), w.groups.count));
+  w.filtered.clear();
+  w.tests.edges = {};
+  for (std::size_t g = 0; g < w.groups.count; ++g) {
+    ScaleGroup& group = w.groups.all[g];
+    filter_lines(run.image, *group.kernels, run.facts.noise.seen, run.options.lines, width_slack, w.tests,
+                 group.lines, w.facts[g]);
+    w.filtered.push_back({group.kernels, &group.lines, &w.facts[g]});
+  }
+  // Gleams with the laser off; a faint line has to be long. The range of 16-bit pixels is not known.
+  const double least_height = width_slack > 1 && sizeof(T) == 1 ? 20.0 : 0.0;
+  drop_faint_lines(w.filtered, run.facts.noise.seen, run.options.lines, width_slack, least_height,
+                   w.tests.edges);
+}
+
+/// All lines at the one scale `result.sigma`.
 template <class T>
 void find_lines(const Run<T>& run) {
   ExtractionWorkspace& w = run.w;
   if (w.kernels.sigma != run.result.sigma) w.kernels = make_derivative_kernels(run.result.sigma);
   const RidgeLimits limits = ridge_limits(w.kernels, run.facts, run.parsed, run.result);
-  w.lines.clear();
+  w.groups.count = 0;
+  LineSet& lines = w.groups.add(w.kernels).lines;
   switch (run.options.method) {
     case ExtractionMethod::kDirectionGuided:
-      follow_lines(run.image, w.kernels, limits, follow_rule(run), w.direction_guided<T>(), w.lines);
+      follow_lines(run.image, w.kernels, limits, follow_rule(run), w.direction_guided<T>(), lines);
       break;
     case ExtractionMethod::kSteger:
-      find_lines_steger(run.image, w.kernels, limits, w.whole_image, w.lines);
+      find_lines_steger(run.image, w.kernels, limits, w.whole_image, lines);
       break;
     case ExtractionMethod::kZhouRoi:
-      find_lines_zhou(run.image, w.kernels, limits, run.result.levels.t_otsu, w.whole_image, w.lines);
+      find_lines_zhou(run.image, w.kernels, limits, run.result.levels.t_otsu, w.whole_image, lines);
       break;
     case ExtractionMethod::kHuRecursive:
-      find_lines_hu(run.image, w.kernels, limits, w.whole_image, w.lines);
+      find_lines_hu(run.image, w.kernels, limits, w.whole_image, lines);
       break;
     case ExtractionMethod::kCentroid:
       find_lines_by_grey_value(run.image, w.kernels, limits, GreyValueCentre::kCentroid, w.grey_values,
-                               w.lines);
+                               lines);
       break;
     case ExtractionMethod::kExtremum:
       find_lines_by_grey_value(run.image, w.kernels, limits, GreyValueCentre::kExtremum, w.grey_values,
-                               w.lines);
+                               lines);
       break;
   }
-  filter_lines(run.image, w.kernels, run.facts.noise.seen, run.options.lines, w.tests, w.lines);
+  filter_groups(run, 1);
+}
+
+/// The foot of a glowing stripe is up to twice as wide as the core that chose the scale.
+constexpr double kWidthSlack = 2;
+
+/// Each line at its own scale; `result.sigma` becomes that of the longest one.
+template <class T>
+void find_lines_at_own_scale(const Run<T>& run) {
+  ExtractionWorkspace& w = run.w;
+  const OwnScaleSearch<T> search{run.image,
+                                 run.facts.noise.seen,
+                                 run.facts.histogram.largest,
+                                 run.options.lines.min_length,
+                                 run.options.stop_after,
+                                 {}};
+  const LimitsMaker limits{&run, [](const void* given, const DerivativeKernels& kernels, double noise) {
+                             const auto& r = *static_cast<const Run<T>*>(given);
+                             ImageFacts facts = r.facts;
+                             facts.noise.seen = noise;
+                             return ridge_limits(kernels, facts, r.parsed, r.result);
+                           }};
+  follow_lines_at_own_scale(search, limits, w.kernel_cache, w.direction_guided<T>(), w.own_scale<T>(),
+                            w.groups);
+  filter_groups(run, kWidthSlack);
+  std::size_t longest = 0;
+  for (const ScaleGroup& group : w.groups.used())
+    for (const LineRange& r : group.lines.lines) {
+      if (r.size() <= longest) continue;
+      longest = r.size();
+      run.result.sigma = group.kernels->sigma;
+    }
 }
 
 /// Median width of the brighter measured points; nothing without points.
 std::optional<double> found_width(ExtractionWorkspace& w) {
+  const LineSet& lines = w.groups.all[0].lines;
   float brightest = 0;
-  for (const LineRange& r : w.lines.lines)
-    for (std::size_t i = r.begin; i < r.end; ++i)
-      brightest = std::max(brightest, w.lines.points[i].intensity);
+  for (const LineRange& r : lines.lines)
+    for (std::size_t i = r.begin; i < r.end; ++i) brightest = std::max(brightest, lines.points[i].intensity);
   w.values.clear();
-  for (const LineRange& r : w.lines.lines)
+  for (const LineRange& r : lines.lines)
     for (std::size_t i = r.begin; i < r.end; ++i) {
-      const StripePoint& p = w.lines.points[i];
+      const StripePoint& p = lines.points[i];
       if (p.flags == 0 && p.intensity > 0.3F * brightest) w.values.push_back(static_cast<float>(p.width));
     }
   if (w.values.empty()) return std::nullopt;
@@ -118,9 +170,10 @@ std::optional<double> found_width(ExtractionWorkspace& w) {
 }
 
 std::size_t measured_points(const ExtractionWorkspace& w) {
+  const LineSet& lines = w.groups.all[0].lines;
   std::size_t count = 0;
-  for (const LineRange& r : w.lines.lines)
-    for (std::size_t i = r.begin; i < r.end; ++i) count += w.lines.points[i].flags == 0 ? 1U : 0U;
+  for (const LineRange& r : lines.lines)
+    for (std::size_t i = r.begin; i < r.end; ++i) count += lines.points[i].flags == 0 ? 1U : 0U;
   return count;
 }
 
@@ -152,33 +205,39 @@ void resize_stripes(std::size_t count, ExtractionWorkspace& w, std::vector<Strip
   stripes.resize(count);
 }
 
-/// Longest lines first, each with growing x or y; into the result's own memory.
-void hand_over(ExtractionWorkspace& w, int max_lines, const PixelPlace& origin, ExtractionResult& result) {
-  auto& lines = w.lines.lines;
-  std::sort(lines.begin(), lines.end(), [](const LineRange& a, const LineRange& b) {
-    return a.size() != b.size() ? a.size() > b.size() : a.begin < b.begin;
-  });
-  if (max_lines > 0 && lines.size() > static_cast<std::size_t>(max_lines))
-    lines.resize(static_cast<std::size_t>(max_lines));
-  resize_stripes(lines.size(), w, result.stripes);
-  for (std::size_t k = 0; k < lines.size(); ++k) {
-    const auto first = w.lines.points.begin() + static_cast<std::ptrdiff_t>(lines[k].begin);
-    const auto last = w.lines.points.begin() + static_cast<std::ptrdiff_t>(lines[k].end);
-    auto& points = result.stripes[k].points;
-    points.assign(first, last);
-    if (origin.x != 0 || origin.y != 0)
-      for (StripePoint& p : points) {
-        p.x += origin.x;
-        p.y += origin.y;
-      }
-    const double dx = points.back().x - points.front().x, dy = points.back().y - points.front().y;
-    if ((std::abs(dx) >= std::abs(dy) ? dx : dy) >= 0) continue;
-    std::reverse(points.begin(), points.end());
+/// One line into the result's own memory, with growing x or y.
+void copy_line(const LineSet& lines, const LineRange& r, const PixelPlace& origin,
+               std::vector<StripePoint>& points) {
+  points.assign(lines.points.begin() + static_cast<std::ptrdiff_t>(r.begin),
+                lines.points.begin() + static_cast<std::ptrdiff_t>(r.end));
+  if (origin.x != 0 || origin.y != 0)
     for (StripePoint& p : points) {
-      p.normal_x = -p.normal_x;
-      p.normal_y = -p.normal_y;
+      p.x += origin.x;
+      p.y += origin.y;
     }
+  const double dx = points.back().x - points.front().x, dy = points.back().y - points.front().y;
+  if ((std::abs(dx) >= std::abs(dy) ? dx : dy) >= 0) return;
+  std::reverse(points.begin(), points.end());
+  for (StripePoint& p : points) {
+    p.normal_x = -p.normal_x;
+    p.normal_y = -p.normal_y;
   }
+}
+
+/// The lines of all scales, longest first.
+void hand_over(ExtractionWorkspace& w, int max_lines, const PixelPlace& origin, ExtractionResult& result) {
+  w.order.clear();
+  for (std::size_t g = 0; g < w.groups.count; ++g)
+    for (const LineRange& r : w.groups.all[g].lines.lines) w.order.push_back({g, r});
+  std::sort(w.order.begin(), w.order.end(), [](const PlacedLine& a, const PlacedLine& b) {
+    if (a.range.size() != b.range.size()) return a.range.size() > b.range.size();
+    return a.group != b.group ? a.group < b.group : a.range.begin < b.range.begin;
+  });
+  if (max_lines > 0 && w.order.size() > static_cast<std::size_t>(max_lines))
+    w.order.resize(static_cast<std::size_t>(max_lines));
+  resize_stripes(w.order.size(), w, result.stripes);
+  for (std::size_t k = 0; k < w.order.size(); ++k)
+    copy_line(w.groups.all[w.order[k].group].lines, w.order[k].range, origin, result.stripes[k].points);
 }
 
 /// The part of the image that is looked at, and where it begins.
@@ -195,17 +254,26 @@ bool has_ridges(ExtractionMethod method) {
 }
 
 template <class T>
-void finish_lines(const Run<T>& run) {
+void finish_lines(const Run<T>& run, ScaleGroup& group) {
   ExtractionWorkspace& w = run.w;
-  smooth_measures(w.kernels, w.lines, w.values);
-  predict_errors(run.image, w.kernels, run.facts.noise.full, w.lines, w.values);
+  const DerivativeKernels& kernels = *group.kernels;
+  smooth_measures(kernels, group.lines, w.values);
+  predict_errors(run.image, kernels, run.facts.noise.full, group.lines, w.errors);
   if (has_ridges(run.options.method)) {
-    mend_line_ends(w.kernels, w.lines, w.bends.nodes);
-    mend_junctions(w.kernels, w.lines);
+    mend_line_ends(kernels, group.lines, w.bends.nodes);
+    mend_junctions(kernels, group.lines);
   }
   if (run.options.curvature_correction && has_ridges(run.options.method))
-    correct_curvature_bias(w.kernels, w.lines, w.bends);
-  if (run.options.smoothing) smooth_along_lines(w.kernels, w.lines, w.smoothing);
+    correct_curvature_bias(kernels, group.lines, w.bends);
+  if (run.options.smoothing) smooth_along_lines(group.lines, w.smoothing);
+  // Last: neither bends nor smoothing may take a bias for scatter.
+  add_asymmetry(run.image, kernels, group.lines, w.asymmetry);
+}
+
+/// Nobody said how wide the stripes are, and the method can tell line by line.
+bool scales_are_free(const ExtractionOptions& options, const ParsedOptions& parsed) {
+  return !options.sigma && !options.stripe_width && !parsed.start &&
+         options.method == ExtractionMethod::kDirectionGuided;
 }
 
 template <class T>
@@ -214,19 +282,21 @@ void extract(ImageView<T> whole, const ExtractionOptions& options, ExtractionWor
   const ParsedOptions parsed = parse_options(options);
   result.sigma = result.threshold_low = result.threshold_high = result.noise = 0;
   result.levels = {};
-  w.lines.clear();
+  w.groups.count = 0;
   const ImageView<T> image = region_of(whole, parsed);
   const PixelPlace origin{parsed.roi ? 1.0 * parsed.roi->x : 0.0, parsed.roi ? 1.0 * parsed.roi->y : 0.0};
   if (!image.empty()) {
     const Run<T> run{image, options, parsed, look_at(image), w, result};
     result.noise = run.facts.noise.full;
     choose_levels(run.facts, options, parsed, result);
-    if (const auto sigma = choose_sigma(run)) {
+    if (scales_are_free(options, parsed)) {
+      find_lines_at_own_scale(run);
+    } else if (const auto sigma = choose_sigma(run)) {
       result.sigma = *sigma;
       find_lines(run);
       if (!options.sigma && !options.stripe_width) refine_sigma(run);
-      finish_lines(run);
     }
+    for (ScaleGroup& group : w.groups.used()) finish_lines(run, group);
   }
   hand_over(w, options.max_lines, origin, result);
 }

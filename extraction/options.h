@@ -9,7 +9,7 @@
 #include <string>
 
 #include "core/fields.h"
-#include "extraction/lines/line_filter.h"
+#include "extraction/lines/line_filter_options.h"
 
 namespace lightstripe {
 

@@ -5,10 +5,10 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <numbers>
 #include <string>
 
 #include "core/error.h"
+#include "extraction/kernels/width_rule.h"
 
 namespace lightstripe {
 namespace {
@@ -68,7 +68,7 @@ void require(bool ok, const char* option, double value, const char* rule) {
 }
 
 void check_numbers(const ExtractionOptions& o) {
-  const double largest_width = 2 * std::numbers::sqrt3 * kLargestSigma;
+  const double largest_width = full_width_of(kLargestSigma);
   if (o.stripe_width)
     require(*o.stripe_width >= 1 && *o.stripe_width <= largest_width, "stripe_width", *o.stripe_width,
             "a full width of 1 to 69 px");

@@ -56,7 +56,7 @@ struct RailMeasurement {
   Estimate lip;               ///< mm by which metal stands out beside the gauge face; 0: none
 };
 
-/// Name and estimate, in the order of the table; `required`: part of a complete measurement.
+/// Name and estimate, in the order of the table.
 template <class V, class M>
 void visit_estimates(V&& v, M& m) requires std::is_same_v<std::remove_const_t<M>, RailMeasurement> {
   v("vertical_wear", m.vertical_wear), v("side_wear", m.side_wear), v("corner45_wear", m.corner45_wear);

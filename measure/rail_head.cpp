@@ -84,6 +84,27 @@ std::optional<double> bridge_holes(std::vector<Sector>& sectors) {
   return variance;
 }
 
+/// Variance of the area by the points' scatter: each sector is the median of its points. Errors that a
+/// stretch of surface shares count in full over the stretch (the 8 mm of stretch_error_mm).
+double area_noise(const PlacedSection& placed, const std::vector<Sector>& sectors, const Vector2d& centre,
+                  double width) {
+  constexpr double kMedianLoss = 1.57;  // pi / 2: variance of a median over that of a mean
+  constexpr double kStretchMm = 8;
+  double radius = 0, count = 0;
+  for (const Vector2d& p : trusted_points(placed))
+    if (p.y() > placed.reference.head_bottom_v()) radius += (p - centre).norm(), count += 1;
+  const double arc = width * radius / std::max(1.0, count);  // of a sector's surface
+  double scatter = 0;
+  for (const Sector& sector : sectors) {
+    const auto n = static_cast<double>(std::max<std::size_t>(1, sector.differences.size()));
+    scatter += arc * arc / n * (n > 2 ? kMedianLoss : 1);
+  }
+  const double rms = placed.registration.rms_mm, stretch = placed.registration.stretch_error_mm;
+  const double length = arc * static_cast<double>(sectors.size());
+  return std::max(scatter * rms * rms * placed.registration.correlated_points,
+                  stretch * stretch * kStretchMm * length);
+}
+
 }  // namespace
 
 HeadTop find_head_top(const PlacedSection& placed, const Vector2d& up) {
@@ -156,9 +177,7 @@ Estimate head_area_loss(const PlacedSection& placed) {
   for (const Sector& sector : sectors) area += *sector.value * width;
   // A shift up by one sigma adds the head's width times it; sideways and turned it nearly cancels.
   const double place = placed.registration.sigma_of({0, reference.top_v()}, {0, 1}) * 2 * *face;
-  const double noise =
-      placed.registration.rms_mm * *face *
-      std::sqrt(width * placed.registration.correlated_points * (std::numbers::pi - 2 * lowest));
+  const double noise = std::sqrt(area_noise(placed, sectors, centre, width));
   return Estimate::known(area, std::hypot(place, noise, width * std::sqrt(*bridged)));
 }
 

@@ -43,25 +43,43 @@ struct Fit {
   std::vector<FitPoint> points;
 };
 
-/// Iterates closest points until the pose rests; `cap_mm` bounds the scale of the first round and halves.
-void iterate(const Section& section, const ReferenceShape& reference, const ZoneMask& mask, bool upright,
-             int step, int rounds, double cap_mm, double floor_mm, Fit& fit) {
+/// How a stage of the fit runs: which points of the section it looks at, for how long, and how it weighs
+/// them.
+struct FitStage {
+  ZoneMask zones;
+  bool upright = false;     ///< no turn
+  int step = 1;             ///< every step-th point of the section
+  int rounds = 1;           ///< at most
+  double first_cap_mm = 1;  ///< bound of the robust scale in the first round; halved from round to round
+  double floor_mm = 0.01;   ///< the robust scale never falls below
+};
+
+/// Iterates closest points from `pose` until it rests.
+Fit iterate(const Section& section, const ReferenceShape& reference, const SectionPose& pose,
+            const FitStage& stage) {
   constexpr double kRestsMm = 1e-4, kWidestScaleMm = 0.15;
-  for (int round = 0; round < rounds; ++round) {
-    fit.points = find_counterparts(section, fit.pose, reference, step);
-    weigh(fit.points, mask, floor_mm, cap_mm);
+  Fit fit{pose, {}};
+  double cap_mm = stage.first_cap_mm;
+  const auto look = [&] {
+    fit.points = find_counterparts(section, fit.pose, reference, stage.step);
+    weigh(fit.points, stage.zones, stage.floor_mm, cap_mm);
+  };
+  for (int round = 0; round < stage.rounds; ++round) {
+    look();
     cap_mm = std::max(cap_mm / 2, kWidestScaleMm);
-    if (apply_step(normal_equations(fit.points), upright, fit.pose) < kRestsMm) break;
+    if (apply_step(normal_equations(fit.points), stage.upright, fit.pose) < kRestsMm) break;
   }
-  fit.points = find_counterparts(section, fit.pose, reference, step);
-  weigh(fit.points, mask, floor_mm, cap_mm);
+  look();
+  return fit;
 }
 
 /// On every third point until the pose rests, then on all.
-void settle(const Section& section, const ReferenceShape& reference, const ZoneMask& mask, bool upright,
-            const RegistrationOptions& options, Fit& fit) {
-  iterate(section, reference, mask, upright, 3, 6, 0.2, options.noise_floor_mm, fit);
-  iterate(section, reference, mask, upright, 1, 3, 0.2, options.noise_floor_mm, fit);
+Fit settle(const Section& section, const ReferenceShape& reference, const ZoneMask& zones, bool upright,
+           const RegistrationOptions& options, const SectionPose& pose) {
+  FitStage stage{zones, upright, 3, 6, 0.2, options.noise_floor_mm};
+  const Fit rough = iterate(section, reference, pose, stage);
+  stage.step = 1, stage.rounds = 3;
+  return iterate(section, reference, rough.pose, stage);
 }
 
 /// How badly the section lies: mean of min(distance, 1 mm)^2, points out of reach count in full.
@@ -81,15 +99,15 @@ Fit start(const Section& section, const ReferenceShape& reference, const Section
                                  prior.may_be_upside_down, 3};
   Fit best;
   double best_badness = 1e300;
+  const FitStage quick{all_zones(), prior.upright, 2 * step, 6, 2.0, 0.1};
   for (const SectionPose& pose : coarse_poses(section, reference, coarse)) {
-    Fit fit{pose, {}};
-    iterate(section, reference, all_zones(), prior.upright, 2 * step, 6, 2.0, 0.1, fit);
+    Fit fit = iterate(section, reference, pose, quick);
     const double bad = badness(fit, section.size() / static_cast<std::size_t>(2 * step));
     if (bad < best_badness) best_badness = bad, best = std::move(fit);
   }
-  iterate(section, reference, all_zones(), prior.upright, step, 3, 0.5, 0.1, best);
-  iterate(section, reference, unworn_zones(reference.kind()), prior.upright, step, 5, 0.5, 0.02, best);
-  return best;
+  best = iterate(section, reference, best.pose, {all_zones(), prior.upright, step, 3, 0.5, 0.1});
+  return iterate(section, reference, best.pose,
+                 {unworn_zones(reference.kind()), prior.upright, step, 5, 0.5, 0.02});
 }
 
 int count_near(const std::vector<FitPoint>& points, Zone zone) {
@@ -148,7 +166,7 @@ void describe(const Section& section, const Fit& fit, bool upright, Registration
 void refine_rail(const Section& section, const ReferenceShape& reference, bool upright,
                  const RegistrationOptions& options, Fit& fit, Registration& out) {
   ZoneMask mask = mask_of({Zone::kBelowRight, Zone::kBelowLeft});
-  settle(section, reference, mask, upright, options, fit);
+  fit = settle(section, reference, mask, upright, options, fit.pose);
   describe(section, fit, upright, out);
   bool grown = false;
   for (const Zone face : {Zone::kFaceRight, Zone::kFaceLeft}) {
@@ -157,7 +175,7 @@ void refine_rail(const Section& section, const ReferenceShape& reference, bool u
     mask[static_cast<std::size_t>(face)] = grown = true;
   }
   if (!grown) return;
-  settle(section, reference, mask, upright, options, fit);
+  fit = settle(section, reference, mask, upright, options, fit.pose);
   describe(section, fit, upright, out);
 }
 
@@ -228,8 +246,8 @@ Registration register_section(const Section& section, const ReferenceShape& refe
   if (rail && out.view != RegistrationView::kHeadOnly) {
     refine_rail(section, reference, prior.upright, options, fit, out);
   } else {
-    settle(section, reference, rail ? all_zones() : unworn_zones(reference.kind()), prior.upright, options,
-           fit);
+    fit = settle(section, reference, rail ? all_zones() : unworn_zones(reference.kind()), prior.upright,
+                 options, fit.pose);
     describe(section, fit, prior.upright, out);
   }
   out.reason = judged(fit, out, reference, options);

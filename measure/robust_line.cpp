@@ -77,7 +77,9 @@ double median_of(std::vector<double> values) {
   LIGHTSTRIPE_CHECK(!values.empty(), "the median of nothing");
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+  if (values.size() % 2 == 1) return *middle;
+  // The upper one alone would lie too high, of two values by half their distance.
+  return (*middle + *std::max_element(values.begin(), middle)) / 2;
 }
 
 std::optional<PolynomialFit> fit_polynomial(const std::vector<Sample1>& samples, int degree,

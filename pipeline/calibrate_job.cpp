@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "io/atomic_file.h"
 #include "io/camera_file.h"
+#include "io/images.h"
 #include "io/output_guard.h"
 #include "io/rig_file.h"
 #include "pipeline/calibration_advice.h"
@@ -34,12 +35,35 @@ void write_cameras(const fs::path& folder, const Rig& rig, std::vector<std::stri
   }
 }
 
+/// The session with all that it names.
+std::vector<fs::path> inputs_of(const CalibrateJob& job) {
+  const Session& session = job.session;
+  std::vector<fs::path> inputs{job.session_file};
+  const auto add = [&](const std::string& pattern) {
+    for (const auto& file : list_files(session.folder, pattern)) inputs.push_back(file);
+  };
+  for (const SessionSensor& sensor : session.sensors) {
+    add(sensor.board);
+    if (sensor.laser) add(*sensor.laser);
+    if (sensor.camera)  // a rig names its sensor behind a '#'
+      inputs.push_back(session.folder / sensor.camera->substr(0, sensor.camera->rfind('#')));
+  }
+  if (session.motion) {
+    add(session.motion->board);
+    inputs.push_back(session.folder / session.motion->travel);
+  }
+  std::vector<fs::path> once;  // a board with the stripe on it serves twice
+  for (const fs::path& input : inputs)
+    if (std::find(once.begin(), once.end(), input) == once.end()) once.push_back(input);
+  return once;
+}
+
 void write_results(const CalibrateJob& job, CalibrateResult& result) {
   const Rig& rig = result.calibration.rig;
   if (!job.rig.empty()) write_file(job.rig, rig_to_yaml(rig));
   if (!job.camera_folder.empty()) write_cameras(job.camera_folder, rig, result.warnings);
   if (job.rig.empty()) return;
-  write_run_record(job.rig, "calibrate", {job.session_file},
+  write_run_record(job.rig, "calibrate", inputs_of(job),
                    "extraction:\n" + indented(dump_yaml(job.extraction)) + "calibration:\n" +
                        indented(dump_yaml(job.calibration)));
 }

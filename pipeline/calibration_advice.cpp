@@ -46,6 +46,14 @@ bool folders_are_swapped(const Session& session, const SessionObservations& seen
 std::string calibration_advice(const Session& session, const SessionObservations& seen) {
   if (folders_are_swapped(session, seen))
     return "; the board is seen in the pictures under `laser`: swap the patterns of board and laser";
+  const auto moved = std::count_if(seen.rejected.begin(), seen.rejected.end(), [](const auto& image) {
+    return image.reason.find("the board moved by") != std::string::npos;
+  });
+  if (moved > 1)
+    return fmt::format(
+        "; in {} pairs the board moved between the picture without laser and that with it: are "
+        "they pictures of one pose?",
+        moved);
   const auto [reason, count] = commonest_reason(seen.rejected);
   if (2 * static_cast<int>(seen.rejected.size()) < seen.images) return "";
   return fmt::format("; of {} images that were left out {}: {}", seen.rejected.size(),

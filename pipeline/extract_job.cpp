@@ -27,13 +27,18 @@ struct ExtractMemory {
 };
 
 ExtractedImage extract_one(const ExtractJob& job, std::size_t index, ExtractMemory& memory) {
-  const Image8 image = read_image(job.images[index], job.channel);
-  extract_stripes(image, job.extraction, memory.workspace, memory.result);
+  Channel channel = job.channel;
+  const GreyImage image = read_grey_image(job.images[index], job.channel, &channel);
+  std::visit(
+      [&](const auto& pixels) {
+        extract_stripes(pixels.view(), job.extraction, memory.workspace, memory.result);
+      },
+      image);
   ExtractedImage out;
   append_stripes(out.rows, job.images[index], memory.result.stripes);
   out.lines = memory.result.stripes.size();
   for (const auto& stripe : memory.result.stripes) out.points += stripe.points.size();
-  if (job.on_image) job.on_image(index, image, memory.result);
+  if (job.on_image) job.on_image(index, {image, channel, memory.result});
   return out;
 }
 

@@ -18,6 +18,13 @@
 
 namespace lightstripe {
 
+/// One picture, as it was read, and what was found in it.
+struct SeenImage {
+  const GreyImage& image;
+  Channel channel;  ///< that auto chose
+  const ExtractionResult& result;
+};
+
 struct ExtractJob {
   std::vector<std::string> images;  ///< files
   Channel channel = Channel::kAuto;
@@ -26,7 +33,7 @@ struct ExtractJob {
   std::vector<std::filesystem::path> other_outputs;  ///< what else is written: must not be an input either
   int threads = 0;                                   ///< 0 = all cores
   /// Told of each picture (its index in `images`) on the thread that has just looked at it.
-  std::function<void(std::size_t index, const Image8& image, const ExtractionResult& result)> on_image{};
+  std::function<void(std::size_t index, const SeenImage& seen)> on_image{};
   /// Told of each picture in order, from one thread, when its rows are in the table.
   std::function<void(std::size_t index)> on_row{};
 };

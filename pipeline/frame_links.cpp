@@ -58,4 +58,9 @@ std::map<std::int64_t, std::vector<FrameLink>> frame_links(const std::string& sc
   return out;
 }
 
+std::string link_to(const fs::path& file, const fs::path& page) {
+  if (file.empty()) return "";
+  return escaped(fs::absolute(file).lexically_proximate(fs::absolute(page).parent_path()).string());
+}
+
 }  // namespace lightstripe

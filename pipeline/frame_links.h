@@ -23,4 +23,7 @@ std::map<std::int64_t, std::vector<FrameLink>> frame_links(const std::string& sc
                                                            const std::filesystem::path& page,
                                                            const std::vector<std::int64_t>& frames);
 
+/// A file as a page links to it, escaped; empty for an empty file.
+std::string link_to(const std::filesystem::path& file, const std::filesystem::path& page);
+
 }  // namespace lightstripe

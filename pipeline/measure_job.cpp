@@ -16,6 +16,7 @@
 #include "measure/measure_track.h"
 #include "measure/profile_formats.h"
 #include "pipeline/measurement_table.h"
+#include "pipeline/measurement_workbook.h"
 #include "pipeline/run_record.h"
 
 namespace lightstripe {
@@ -130,7 +131,11 @@ MeasureResult prepare(const MeasureJob& job) {
 
 void write_results(const MeasureJob& job, const MeasureResult& result) {
   if (!job.table.empty()) {
-    write_file(job.table, measurement_table(result.rows, job.kind, result.extra_columns, result.verdicts));
+    if (job.table.extension() == ".xlsx")
+      write_measurement_workbook(job.table, result.rows, job.kind, result.extra_columns, result.verdicts,
+                                 job.limits);
+    else
+      write_file(job.table, measurement_table(result.rows, job.kind, result.extra_columns, result.verdicts));
     write_run_record(job.table, "measure", {job.profiles}, effective_options(job));
   }
   if (!job.export_folder.empty()) export_sections(job, result);

@@ -26,7 +26,7 @@ struct MeasureJob {
   std::filesystem::path rig;  ///< rig file, for the predicted error of diameter and gauge; empty: none
   MeasureOptions options;
   Limits limits;
-  std::filesystem::path table = "measurements.csv";  ///< empty: not written
+  std::filesystem::path table = "measurements.csv";  ///< .csv or .xlsx; empty: not written
   std::filesystem::path export_folder;               ///< for the registered sections; empty: not written
   SectionFormat export_format = SectionFormat::kMiniProf;
   std::vector<std::filesystem::path> other_inputs, other_outputs;  ///< what else is read and written

@@ -16,11 +16,10 @@
 namespace lightstripe {
 
 struct ReferenceChoice {
-  std::string
-      nominal;  ///< name or file of the new rail or wheel; empty: 60E1 or S1002; auto: the rail that fits
-  std::string baseline;    ///< file of an earlier measurement as reference; empty: the nominal outline itself
+  std::string nominal{};   ///< name or file of the new rail or wheel; empty: 60E1 or S1002; auto: what fits
+  std::string baseline{};  ///< file of an earlier measurement as reference; empty: the nominal itself
   bool two_rails = false;  ///< each section shows both rails of a track
-  std::string nominal_right;  ///< two rails: name or file of the rail at -y; empty: as the other
+  std::string nominal_right{};  ///< two rails: name or file of the rail at -y; empty: as the other
 };
 
 class MeasureReferences {

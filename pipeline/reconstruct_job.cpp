@@ -8,12 +8,14 @@
 #include <chrono>
 #include <fstream>
 #include <limits>
+#include <thread>
 
 #include "core/error.h"
 #include "io/atomic_file.h"
 #include "io/images.h"
 #include "io/output_guard.h"
 #include "io/rig_file.h"
+#include "pipeline/camera_recorders.h"
 #include "pipeline/recording.h"
 #include "pipeline/run_record.h"
 #include "pipeline/scan_output.h"
@@ -48,6 +50,7 @@ std::string fingerprint_of(const Run& run) {
   hash = fnv1a(dump_yaml(job.extraction), hash);
   hash = fnv1a(read_file(job.scan_file), hash);
   hash = fnv1a(read_file(job.rig_file), hash);
+  if (job.follow) return fmt::format("{:016x}", fnv1a("follow", hash));  // names and travel are still to come
   if (run.recording.table()) hash = fnv1a(read_file(*run.recording.table()), hash);
   hash = fnv1a(fmt::format("{}:{} {} {}", run.first_frame, run.end_frame, job.cloud.extension().string(),
                            !job.profiles.empty()),
@@ -56,6 +59,19 @@ std::string fingerprint_of(const Run& run) {
     for (std::size_t s = 0; s < job.rig.sensors.size(); ++s)
       hash = fnv1a(run.recording.picture_identity(frame, static_cast<int>(s)) + "/", hash);
   return fmt::format("{:016x}", hash);
+}
+
+/// Text has all its digits: only binary clouds are written about an origin.
+Eigen::Vector3d origin_of(const Run& run) {
+  return cloud_format(run.job.cloud, run.job.cloud.string()) == CloudFormat::kXyz
+             ? Eigen::Vector3d::Zero().eval()
+             : run.recording.cloud_origin();
+}
+
+ScanOutputOptions output_options(const Run& run) {
+  const std::chrono::milliseconds checkpoint(static_cast<std::int64_t>(1000 * run.job.checkpoint_s));
+  return {run.job.cloud,       run.job.profiles, run.first_frame, origin_of(run),
+          fingerprint_of(run), run.job.resume,   checkpoint};
 }
 
 /// Tells the points that an earlier run has left in its cloud.
@@ -251,6 +267,38 @@ std::string why_not_usable(const ReconstructResult& result) {
   return result.summary.points == 0 ? why_empty(result) : "";
 }
 
+/// Whether the recording has ended: the files are there for good, or `lightstripe record` says so.
+bool is_over(const ReconstructJob& job) {
+  return std::all_of(job.scan.frames.begin(), job.scan.frames.end(), [&](const auto& sensor) {
+    const fs::path note = (job.scan.folder / sensor.second).parent_path() / "record.yaml";
+    return fs::exists(note) && read_file(note).find("\nframes: ") != std::string::npos;
+  });
+}
+
+/// The first frame that has to wait: not all sensors or the travel have it yet, or it is the newest, which
+/// may still be written.
+std::int64_t ready_end(const Run& run, bool newest_too) {
+  std::int64_t end = run.end_frame;
+  for (int sensor = 0; sensor < static_cast<int>(run.job.rig.sensors.size()); ++sensor) {
+    std::int64_t last = run.end_frame - 1;
+    while (last >= run.first_frame && run.recording.picture_name(last, sensor).empty()) --last;
+    const bool has_pictures = last >= run.first_frame;
+    if (has_pictures) end = std::min(end, newest_too ? last + 1 : last);
+  }
+  while (end > run.first_frame && !run.recording.position(end - 1)) --end;
+  return end;
+}
+
+/// The recording as it is now; nothing where it cannot be read yet, and why.
+std::optional<Run> run_so_far(const ReconstructJob& job, std::string& why_not) {
+  try {
+    return open_run(job);
+  } catch (const Error& error) {
+    why_not = error.what();
+    return std::nullopt;
+  }
+}
+
 /// The scan itself.
 void scan(const Run& run, ScanOutput& output, const ProgressCallback& progress, const std::stop_token& stop,
           ReconstructResult& result) {
@@ -265,8 +313,71 @@ void scan(const Run& run, ScanOutput& output, const ProgressCallback& progress, 
                                    if (job.on_profile) job.on_profile(frame.profile);
                                    steps.step();
                                  });
-  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  result.frames_now = result.summary.frames - frames_before;
+  result.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  result.frames_now += result.summary.frames - frames_before;
+}
+
+/// Looks for new frames until the recording is over; returns the last look at it.
+Run scan_what_comes(const ReconstructJob& job, std::optional<ScanOutput>& output,
+                    const ProgressCallback& progress, const std::stop_token& stop,
+                    ReconstructResult& result) {
+  using Clock = std::chrono::steady_clock;
+  constexpr auto kPause = std::chrono::milliseconds(100);
+  std::int64_t seen_end = 0;
+  auto last_news = Clock::now();
+  for (std::string why_not;;) {
+    const auto begin = Clock::now();
+    const bool stopped = stop.stop_requested(),
+               recorded = is_over(job);  // before the look: nothing comes after it
+    const bool idle = job.idle_s > 0 && begin - last_news > std::chrono::duration<double>(job.idle_s);
+    const bool last_look = stopped || recorded || idle;
+    auto run = run_so_far(job, why_not);
+    if (last_look && !run)
+      throw Error(job.scan_file.string(), "nothing that can be used was recorded (" + why_not + ")",
+                  "look at the recording");
+    const bool news = run && run->end_frame != seen_end;
+    if (news) {
+      seen_end = run->end_frame;
+      last_news = Clock::now();
+    }
+    if (run) {
+      if (!output) output.emplace(output_options(*run));
+      if (!last_look) run->end_frame = ready_end(*run, !news);
+      if (run->end_frame > output->tally().next_frame || last_look) scan(*run, *output, progress, {}, result);
+      if (last_look) return std::move(*run);
+    }
+    // Listing a long folder takes its time: most of the machine stays free for the pictures.
+    std::this_thread::sleep_for(std::max<Clock::duration>(kPause, 2 * (Clock::now() - begin)));
+  }
+}
+
+/// Result, messages and final names, once all frames are done.
+void finish(const Run& run, ScanOutput& output, ReconstructResult& result) {
+  result.first_frame = run.first_frame;
+  result.end_frame = result.summary.stopped ? output.tally().next_frame : run.end_frame;
+  result.skipped = output.tally().skipped;
+  result.duplicate_pictures = run.recording.duplicate_pictures();
+  result.warnings = run.recording.warnings();
+  result.without_picture = run.recording.without_picture();
+  result.origin = origin_of(run);
+  refuse_unusable_pictures(run.job, result);
+  if (result.summary.points == 0) result.brightest = brightest_level(run);
+  close_output(run, output, result);
+  result.not_usable = why_not_usable(result);
+}
+
+ReconstructResult reconstruct_following(ReconstructJob job, const ProgressCallback& progress,
+                                        const std::stop_token& stop) {
+  CameraRecorders recorders(job);
+  std::stop_source over;
+  const auto end_it = [&] { over.request_stop(); };
+  const std::stop_callback by_user(stop, end_it), by_failure(recorders.failed(), end_it);
+  ReconstructResult result;
+  std::optional<ScanOutput> output;
+  const Run run = scan_what_comes(job, output, progress, over.get_token(), result);
+  recorders.end();
+  finish(run, *output, result);
+  return result;
 }
 
 }  // namespace
@@ -289,31 +400,19 @@ std::pair<std::int64_t, std::int64_t> frames_to_reconstruct(const ReconstructJob
 ReconstructResult reconstruct(const ReconstructJob& job, const ProgressCallback& progress,
                               const std::stop_token& stop) {
   const JobThreads threads(job.threads);
+  refuse_camera_without_follow(job);
+  if (job.follow) return reconstruct_following(job, progress, stop);
   const Run run = open_run(job);
   refuse_vanished_frames(run);
   guard(run);
-  const Eigen::Vector3d origin = cloud_format(job.cloud, job.cloud.string()) == CloudFormat::kXyz
-                                     ? Eigen::Vector3d::Zero().eval()
-                                     : run.recording.cloud_origin();
-  ScanOutput output({job.cloud, job.profiles, run.first_frame, origin, fingerprint_of(run), job.resume,
-                     std::chrono::milliseconds(static_cast<std::int64_t>(1000 * job.checkpoint_s))});
+  ScanOutput output(output_options(run));
   const std::int64_t points_before = output.tally().counts.points;
   if (job.on_profile && points_before > 0)
-    tell_earlier_points(output.was_complete() ? job.cloud : output.partial_cloud(), origin, points_before,
-                        job.on_profile);
+    tell_earlier_points(output.was_complete() ? job.cloud : output.partial_cloud(), origin_of(run),
+                        points_before, job.on_profile);
   ReconstructResult result;
   scan(run, output, progress, stop, result);
-  result.first_frame = run.first_frame;
-  result.end_frame = result.summary.stopped ? output.tally().next_frame : run.end_frame;
-  result.skipped = output.tally().skipped;
-  result.duplicate_pictures = run.recording.duplicate_pictures();
-  result.warnings = run.recording.warnings();
-  result.without_picture = run.recording.without_picture();
-  result.origin = origin;
-  refuse_unusable_pictures(job, result);
-  if (result.summary.points == 0) result.brightest = brightest_level(run);
-  close_output(run, output, result);
-  result.not_usable = why_not_usable(result);
+  finish(run, output, result);
   return result;
 }
 

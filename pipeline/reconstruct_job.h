@@ -36,6 +36,9 @@ struct ReconstructJob {
   bool resume = false;      ///< go on where an earlier run of the same job was ended
   double checkpoint_s = 1;  ///< time between the places where a run can be resumed
   int threads = 0;          ///< 0 = all cores
+  bool follow =
+      false;          ///< the recording is still being written: go on until it is over or a stop is asked for
+  double idle_s = 0;  ///< follow: over when nothing has come for so long; 0: not by that
   /// Told of each section in order of frames, from one thread at a time. With `resume` the earlier run's
   /// points come first, read back from its cloud, one point a call.
   std::function<void(const Profile&)> on_profile{};
@@ -71,6 +74,11 @@ struct ReconstructResult {
 /// Reads, reconstructs and writes, with the run's record (<cloud>.run.yaml). Files appear under their names
 /// only when all went well and there are points; a run that was stopped leaves them under partial names, from
 /// where one with `resume` goes on. An Error where a file is wrong.
+///
+/// With `follow` the recording may grow, begin with nothing, and be a camera (its pictures are then recorded
+/// to <cloud's stem>.frames/<sensor>/). Frames are done once all sensors and the travel table have them; it
+/// is over when `lightstripe record` has ended (record.yaml), after `idle_s`, or by the stop, which here is
+/// no interruption: what has come is done and the files take their names.
 ReconstructResult reconstruct(const ReconstructJob& job, const ProgressCallback& progress = {},
                               const std::stop_token& stop = {});
 

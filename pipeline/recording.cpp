@@ -50,8 +50,15 @@ void Recording::read_positions(const Scan& scan, const std::string& scan_file) {
     table_ = scan.folder / scan.poses_file;
     poses_ = read_poses(*table_);
     if (scan.poses_of == "rig") return;
+    if (scan.poses_of == "tool") {
+      if (!rig_.tool_from_rig)
+        throw Error(scan_file + ": travel.of", "is tool, but the rig does not know where it sits on the tool",
+                    "calibrate it with motion: {type: poses, file: poses.csv}");
+      posed_from_rig_ = *rig_.tool_from_rig;
+      return;
+    }
     const std::size_t sensor =
-        sensor_of_name(rig_, scan.poses_of, scan_file + ": travel.of", "name a sensor, or 'rig'");
+        sensor_of_name(rig_, scan.poses_of, scan_file + ": travel.of", "name a sensor, 'rig' or 'tool'");
     posed_from_rig_ = rig_.sensors[sensor].rig_from_camera.inverse();
   } else if (travel_ == TravelSource::kFile) {
     table_ = scan.folder / scan.travel_file;

@@ -4,7 +4,11 @@
 
 #include <fmt/format.h>
 
+#include <openssl/evp.h>
+
+#include <array>
 #include <fstream>
+#include <memory>
 
 #include "core/error.h"
 #include "io/atomic_file.h"
@@ -14,7 +18,8 @@ namespace lightstripe {
 namespace {
 
 struct InputFacts {
-  std::uint64_t bytes = 0, hash = kFnvStart;
+  std::uint64_t bytes = 0;
+  std::string sha256;  ///< in hexadecimal digits
 };
 
 InputFacts facts_of(const std::filesystem::path& path) {
@@ -22,12 +27,19 @@ InputFacts facts_of(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   if (!file) throw Error(path.string(), "cannot be read", "check the path");
   InputFacts facts;
+  const std::unique_ptr<EVP_MD_CTX, void (*)(EVP_MD_CTX*)> digest(EVP_MD_CTX_new(), EVP_MD_CTX_free);
+  LIGHTSTRIPE_CHECK(digest && EVP_DigestInit_ex(digest.get(), EVP_sha256(), nullptr) == 1,
+                    "SHA-256 is there");
   std::vector<char> part(std::size_t{1} << 20);
   while (file.read(part.data(), static_cast<std::streamsize>(part.size())), file.gcount() > 0) {
     const auto got = static_cast<std::size_t>(file.gcount());
     facts.bytes += got;
-    facts.hash = fnv1a({part.data(), got}, facts.hash);
+    EVP_DigestUpdate(digest.get(), part.data(), got);
   }
+  std::array<unsigned char, EVP_MAX_MD_SIZE> sum{};
+  unsigned length = 0;
+  EVP_DigestFinal_ex(digest.get(), sum.data(), &length);
+  for (unsigned i = 0; i < length; ++i) facts.sha256 += fmt::format("{:02x}", sum[i]);
   return facts;
 }
 
@@ -53,8 +65,8 @@ void write_run_record(const std::filesystem::path& output, const std::string& co
   std::string text = fmt::format("lightstripe: {}\ncommand: {}\ninputs:\n", LIGHTSTRIPE_VERSION, command);
   for (const auto& input : inputs) {
     const InputFacts facts = facts_of(input);
-    text += fmt::format("  - {{file: {}, bytes: {}, fnv1a: \"{:016x}\"}}\n", yaml_text(input.string()),
-                        facts.bytes, facts.hash);
+    text += fmt::format("  - {{file: {}, bytes: {}, sha256: \"{}\"}}\n", yaml_text(input.string()),
+                        facts.bytes, facts.sha256);
   }
   write_file(output.string() + ".run.yaml", text + options);
 }

@@ -11,8 +11,8 @@
 
 namespace lightstripe {
 
-/// `options` is YAML text of the effective options; inputs are recorded with size and FNV-1a hash of their
-/// bytes.
+/// `options` is YAML text of the effective options; inputs are recorded with size and SHA-256, as
+/// sha256sum prints it.
 void write_run_record(const std::filesystem::path& output, const std::string& command,
                       const std::vector<std::filesystem::path>& inputs, const std::string& options);
 

@@ -100,7 +100,7 @@ py::dict quality_of(const Rig& rig) {
   const auto known = [](double value) { return value > 0 ? py::object(py::float_(value)) : py::none(); };
   return py::dict("section_shape_sigma_mm"_a = known(quality.section_shape_sigma_mm),
                   "section_absolute_sigma_mm"_a = known(quality.section_absolute_sigma_mm),
-                  "cross_validation_ratio"_a = known(quality.cross_validation_ratio),
+                  "cross_validation_ratio"_a = known(quality.cross_validation_ratio.value_or(0)),
                   "weakest"_a = quality.weakest, "warnings"_a = quality.warnings, "sigma"_a = quality.sigma);
 }
 
@@ -109,7 +109,7 @@ Channel channel_of(const std::string& name) {
     if (entry.name == name) return entry.value;
   throw py::value_error(
       "'" + name +
-      "' is no channel: use auto, gray, red, green, blue, red-excess, green-excess or blue-excess");
+      "' is no channel: use auto, gray, or red, green or blue, alone or with -excess, -laser or -clipped");
 }
 
 Eigen::Matrix3d camera_matrix(const Camera& camera) {
@@ -161,7 +161,8 @@ void add_rig(py::module_& module) {
         return fmt::format("<lightstripe.Rig of {}, {} motion>", names,
                            moves ? enum_name(rig.motion.type) : "no");
       });
-  module.def("read_rig", &read_rig, py::arg("path"), "rig.yaml to a Rig");
+  module.def(
+      "read_rig", [](const fs::path& path) { return read_rig(path); }, py::arg("path"), "rig.yaml to a Rig");
 }
 
 void add_extraction(py::module_& module) {

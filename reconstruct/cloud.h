@@ -42,6 +42,26 @@ class CloudWriter {
   std::unique_ptr<Impl> impl_;
 };
 
+/// Reads a .ply or .pcd cloud frame by frame, in memory that does not grow with it.
+class CloudReader {
+ public:
+  /// An Error where the header is not of that layout or counts other points than the file holds.
+  explicit CloudReader(const std::filesystem::path& path);
+  ~CloudReader();
+  CloudReader(const CloudReader&) = delete;
+  CloudReader& operator=(const CloudReader&) = delete;
+
+  std::int64_t num_points() const;
+  /// What the points' coordinates count from, mm; 0 where the file names none.
+  const Eigen::Vector3d& origin() const;
+  /// The points up to the next change of the frame number, in the file's order; false behind the last.
+  bool next_frame(std::vector<CloudPoint>& points);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
 /// Reads a .ply or .pcd cloud that lightstripe wrote; about its origin, if it names one (inspect_cloud()). An
 /// Error where the header is not of that layout or counts other points than the file holds; looked up before
 /// anything is allocated.

@@ -3,13 +3,11 @@
 #include "reconstruct/cloud_header.h"
 
 #include <fmt/format.h>
-#include <pcl/io/pcd_io.h>
 
 #include <algorithm>
 #include <cctype>
 
 #include "core/error.h"
-#include "reconstruct/cloud_point_type.h"
 
 namespace lightstripe {
 namespace {
@@ -27,8 +25,9 @@ std::string origin_comment(const CloudOrigin& origin) {
                      origin.x(), origin.y(), origin.z(), -origin.x(), -origin.y(), -origin.z());
 }
 
-/// By hand: PCL's own header appends a camera or a range grid with some twenty properties and an empty face
-/// element, which docs/interface.md does not have.
+/// By hand, as the one of .pcd: PCL's own appends a camera or a range grid with some twenty properties and an
+/// empty face element, which docs/interface.md does not have; and a program that links PCL loads VTK and
+/// OpenNI for these few lines. The tests read both with PCL.
 std::string ply_header(std::int64_t num_points, const CloudOrigin& origin) {
   return fmt::format(
       "ply\nformat binary_little_endian 1.0\ncomment lightstripe, mm{}\n{}element vertex {}\n"
@@ -37,21 +36,14 @@ std::string ply_header(std::int64_t num_points, const CloudOrigin& origin) {
       slack(num_points, 1), origin_comment(origin), num_points);
 }
 
+/// The viewpoint carries the origin in full precision, which PCL's 32-bit numbers would not.
 std::string pcd_header(std::int64_t num_points, const CloudOrigin& origin) {
-  pcl::PCLPointCloud2 cloud;
-  cloud.fields = pcl::getFields<CloudPoint>();
-  cloud.width = static_cast<std::uint32_t>(num_points);
-  cloud.height = 1;
-  cloud.point_step = sizeof(CloudPoint);
-  std::string header =
-      pcl::PCDWriter().generateHeaderBinary(cloud, Eigen::Vector4f::Zero(), Eigen::Quaternionf::Identity());
-  if (!origin.isZero()) {  // by hand: PCL has 32-bit numbers there
-    const std::size_t at = header.find("VIEWPOINT "), end = header.find('\n', at);
-    header.replace(at, end - at,
-                   fmt::format("VIEWPOINT {} {} {} 1 0 0 0", origin.x(), origin.y(), origin.z()));
-  }
-  return header +
-         fmt::format("# lightstripe, mm{}\nDATA binary\n", slack(num_points, 2));  // WIDTH and POINTS
+  return fmt::format(
+      "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\n"
+      "FIELDS x y z intensity frame sensor line sigma\nSIZE 4 4 4 4 4 4 4 4\nTYPE F F F F I I I F\n"
+      "COUNT 1 1 1 1 1 1 1 1\nWIDTH {0}\nHEIGHT 1\nVIEWPOINT {2} {3} {4} 1 0 0 0\nPOINTS {0}\n"
+      "# lightstripe, mm{1}\nDATA binary\n",
+      num_points, slack(num_points, 2), origin.x(), origin.y(), origin.z());  // WIDTH and POINTS
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <fstream>
@@ -89,6 +90,13 @@ std::int32_t frame_at(std::ifstream& file, std::uint64_t at) {
   return point.frame;
 }
 
+CloudFormat format_with_fields(const std::filesystem::path& path) {
+  const CloudFormat format = cloud_format(path, path.string());
+  if (format == CloudFormat::kXyz)
+    throw Error(path.string(), "an .xyz file has no intensity, frame and sigma", "give a .ply or .pcd file");
+  return format;
+}
+
 }  // namespace
 
 CloudPart inspect_cloud(const std::filesystem::path& path) {
@@ -108,10 +116,56 @@ CloudPart inspect_cloud(const std::filesystem::path& path) {
   return part;
 }
 
+struct CloudReader::Impl {
+  static constexpr std::size_t kBlock = 65536;  // points read at once
+  std::filesystem::path path;
+  std::int64_t num_points = 0, left = 0;  ///< left: not yet in the buffer
+  CloudOrigin origin = CloudOrigin::Zero();
+  std::ifstream file;
+  std::vector<CloudPoint> buffer;
+  std::size_t next = 0;  ///< in the buffer
+
+  bool fill() {
+    buffer.resize(static_cast<std::size_t>(std::min<std::int64_t>(left, kBlock)));
+    next = 0;
+    if (buffer.empty()) return false;
+    file.read(reinterpret_cast<char*>(buffer.data()),
+              static_cast<std::streamsize>(buffer.size() * sizeof(CloudPoint)));
+    if (!file) throw Error(path.string(), "cannot be read", "check the file and its disk");
+    left -= static_cast<std::int64_t>(buffer.size());
+    return true;
+  }
+};
+
+CloudReader::CloudReader(const std::filesystem::path& path) : impl_(new Impl) {
+  const CloudFormat format = format_with_fields(path);
+  impl_->path = path;
+  const Header header = check_header(path, format);
+  impl_->num_points = impl_->left = header.num_points;
+  impl_->origin = header.origin;
+  impl_->file.open(path, std::ios::binary);
+  impl_->file.seekg(static_cast<std::streamoff>(header.bytes));
+}
+
+CloudReader::~CloudReader() = default;
+
+std::int64_t CloudReader::num_points() const { return impl_->num_points; }
+
+const Eigen::Vector3d& CloudReader::origin() const { return impl_->origin; }
+
+bool CloudReader::next_frame(std::vector<CloudPoint>& points) {
+  points.clear();
+  while (impl_->next < impl_->buffer.size() || impl_->fill()) {
+    const CloudPoint& point = impl_->buffer[impl_->next];
+    if (!points.empty() && point.frame != points.front().frame) break;
+    points.push_back(point);
+    ++impl_->next;
+  }
+  return !points.empty();
+}
+
 std::vector<CloudPoint> read_cloud(const std::filesystem::path& path) {
-  const CloudFormat format = cloud_format(path, path.string());
-  if (format == CloudFormat::kXyz)
-    throw Error(path.string(), "an .xyz file has no intensity, frame and sigma", "give a .ply or .pcd file");
+  const CloudFormat format = format_with_fields(path);
   // The header is known byte for byte and the size fits, so the points lie in the file as they do in memory.
   // (PCL's PCD reader goes on looking for header lines in the points themselves.)
   const Header header = check_header(path, format);

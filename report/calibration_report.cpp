@@ -10,73 +10,92 @@
 #include "io/images.h"
 #include "parallel/parallel.h"
 #include "report/board_overlay.h"
-#include "report/report_json.h"
-#include "report/report_texts.h"
+#include "report/page.h"
 
 namespace lightstripe {
 namespace {
 
-std::string sensors_json(const CalibrationResult& result) {
-  JsonList list;
+using nlohmann::json;
+
+json sensors_json(const CalibrationResult& result) {
+  json list = json::array();
   const auto& summary = result.summary;
   for (std::size_t i = 0; i < result.rig.quality.sensors.size(); ++i) {
     const auto& q = result.rig.quality.sensors[i];
-    JsonList trials;
+    json trials = json::array();
     std::string lens = "-";
     for (const auto& choice : summary.lenses) {
       if (choice.sensor != q.name) continue;
       lens = enum_name(choice.lens);
       for (const auto& trial : choice.trials)
-        trials.add(fmt::format("{{\"lens\": {}, \"px\": {}}}", json(enum_name(trial.lens)),
-                               json(trial.held_out_rms_px)));
+        trials.push_back({{"lens", enum_name(trial.lens)}, {"px", trial.held_out_rms_px}});
     }
     const auto& coverage = result.diagnosis ? result.diagnosis->corner_coverage : std::vector<double>{};
     const bool known = i < result.rig.sensors.size();
-    list.add(fmt::format(
-        "{{\"name\": {}, \"lens\": {}, \"trials\": {}, \"board_rms_px\": {}, \"stripe_rms_px\": {}, "
-        "\"board_views\": {}, \"stripe_views\": {}, \"coverage\": {}, \"size\": [{}, {}]}}",
-        json(q.name), json(lens), trials.text(), json(q.board_rms_px), json(q.stripe_rms_px), q.board_views,
-        q.stripe_views, i < coverage.size() ? json(coverage[i]) : "-1",
-        known ? result.rig.sensors[i].camera.width : 1, known ? result.rig.sensors[i].camera.height : 1));
+    list.push_back({{"name", q.name},
+                    {"lens", lens},
+                    {"trials", trials},
+                    {"board_rms_px", q.board_rms_px},
+                    {"stripe_rms_px", q.stripe_rms_px},
+                    {"board_views", q.board_views},
+                    {"stripe_views", q.stripe_views},
+                    {"coverage", i < coverage.size() ? coverage[i] : -1},
+                    {"size",
+                     {known ? result.rig.sensors[i].camera.width : 1,
+                      known ? result.rig.sensors[i].camera.height : 1}}});
   }
-  return list.text();
+  return list;
 }
 
-std::string views_json(const CalibrationSummary& summary) {
-  JsonList list;
+json stripes_json(const CalibrationSummary& summary) {
+  json list = json::array();
+  for (const auto& s : summary.stripes)
+    list.push_back(
+        {{"name", s.plane > 0 ? fmt::format("{}, laser plane {}", s.sensor, s.plane + 1) : s.sensor},
+         {"found", s.found},
+         {"agreeing", s.agreeing}});
+  return list;
+}
+
+json views_json(const CalibrationSummary& summary) {
+  json list = json::array();
   for (const auto& v : summary.views)
-    list.add(fmt::format(
-        "{{\"sensor\": {}, \"image\": {}, \"board_rms_px\": {}, \"stripe_rms_px\": {}, \"left_out\": {}}}",
-        json(v.sensor), json(v.image), json(v.board_rms_px), json(v.stripe_rms_px), v.left_out));
-  return list.text();
+    list.push_back({{"sensor", v.sensor},
+                    {"image", v.image},
+                    {"board_rms_px", v.board_rms_px},
+                    {"stripe_rms_px", v.stripe_rms_px},
+                    {"left_out", v.left_out}});
+  return list;
 }
 
-std::string residuals_json(const CalibrationDiagnosis& diagnosis) {
-  JsonList list;
+json residuals_json(const CalibrationDiagnosis& diagnosis) {
+  json list = json::array();
   for (const auto& r : diagnosis.residuals)
-    list.add(fmt::format("[{},{},{},{:.1f},{:.1f},{:.4f},{:.4f}]", r.view, r.corner ? 1 : 0, r.used ? 1 : 0,
-                         r.pixel.x(), r.pixel.y(), r.residual_px.x(), r.residual_px.y()));
-  return list.text();
+    list.push_back({r.view, r.corner ? 1 : 0, r.used ? 1 : 0, rounded(r.pixel.x(), 1),
+                    rounded(r.pixel.y(), 1), rounded(r.residual_px.x(), 4), rounded(r.residual_px.y(), 4)});
+  return list;
 }
 
-std::string map_json(const CalibrationDiagnosis& diagnosis) {
-  JsonList list;
+json map_json(const CalibrationDiagnosis& diagnosis) {
+  json list = json::array();
   for (const auto& c : diagnosis.map)
-    list.add(fmt::format(
-        "{{\"sensor\": {}, \"u\": {:.2f}, \"v\": {:.2f}, \"shape\": {:.5f}, \"absolute\": {:.5f}, "
-        "\"extrapolated\": {}}}",
-        c.sensor, c.section_mm.x(), c.section_mm.y(), c.shape_mm, c.absolute_mm, c.extrapolated));
-  return list.text();
+    list.push_back({{"sensor", c.sensor},
+                    {"u", rounded(c.section_mm.x(), 2)},
+                    {"v", rounded(c.section_mm.y(), 2)},
+                    {"shape", rounded(c.shape_mm, 5)},
+                    {"absolute", rounded(c.absolute_mm, 5)},
+                    {"extrapolated", c.extrapolated}});
+  return list;
 }
 
-std::string point_json(const Eigen::Vector3d& p) {
-  return fmt::format("[{:.2f},{:.2f},{:.2f}]", p.x(), p.y(), p.z());
+json point_json(const Eigen::Vector3d& p) {
+  return {rounded(p.x(), 2), rounded(p.y(), 2), rounded(p.z(), 2)};
 }
 
-std::string outline_json(const std::vector<Eigen::Vector3d>& points) {
-  JsonList list;
-  for (const auto& p : points) list.add(point_json(p));
-  return list.text();
+json outline_json(const std::vector<Eigen::Vector3d>& points) {
+  json list = json::array();
+  for (const auto& p : points) list.push_back(point_json(p));
+  return list;
 }
 
 /// The corners of the image, at a depth, in the rig frame.
@@ -90,8 +109,8 @@ std::vector<Eigen::Vector3d> frustum(const Sensor& sensor, double depth_mm) {
 }
 
 /// Where the image's border columns and rows of the map's cells meet each laser plane.
-std::string sheets_json(const Rig& rig, const CalibrationDiagnosis& diagnosis) {
-  JsonList list;
+json sheets_json(const Rig& rig, const CalibrationDiagnosis& diagnosis) {
+  json list = json::array();
   for (std::size_t s = 0; s < rig.sensors.size(); ++s) {
     for (std::size_t p = 0; p < rig.sensors[s].laser_planes.size(); ++p) {
       Eigen::Vector2d low(1e9, 1e9), high(-1e9, -1e9);
@@ -109,90 +128,85 @@ std::string sheets_json(const Rig& rig, const CalibrationDiagnosis& diagnosis) {
             ray ? intersect(rig.sensors[s].laser_planes[p], Eigen::Vector3d::Zero(), *ray) : std::nullopt;
         if (x) corners.push_back(rig.sensors[s].rig_from_camera * *x);
       }
-      if (corners.size() == 4)
-        list.add(fmt::format("{{\"sensor\": {}, \"corners\": {}}}", s, outline_json(corners)));
+      if (corners.size() == 4) list.push_back({{"sensor", s}, {"corners", outline_json(corners)}});
     }
   }
-  return list.text();
+  return list;
 }
 
-std::string rig_json(const SessionObservations& seen, const CalibrationResult& result) {
-  JsonList cameras, boards;
+json rig_json(const SessionObservations& seen, const CalibrationResult& result) {
+  json cameras = json::array(), boards = json::array();
   for (const auto& sensor : result.rig.sensors)
-    cameras.add(fmt::format("{{\"name\": {}, \"centre\": {}, \"frustum\": {}}}", json(sensor.name),
-                            point_json(sensor.rig_from_camera.translation),
-                            outline_json(frustum(sensor, 120))));
+    cameras.push_back({{"name", sensor.name},
+                       {"centre", point_json(sensor.rig_from_camera.translation)},
+                       {"frustum", outline_json(frustum(sensor, 120))}});
   const Target& t = seen.observations.target;
-  const double w = (t.columns - 1) * t.pitch_x, h = (t.rows - 1) * t.pitch_y;
+  const double w = t.extent().x(), h = t.extent().y();
   if (result.diagnosis)
     for (const auto& pose : result.diagnosis->rig_from_board)
-      boards.add(outline_json({pose * Eigen::Vector3d(0, 0, 0), pose * Eigen::Vector3d(w, 0, 0),
-                               pose * Eigen::Vector3d(w, h, 0), pose * Eigen::Vector3d(0, h, 0)}));
-  return fmt::format("{{\"cameras\": {}, \"boards\": {}, \"sheets\": {}}}", cameras.text(), boards.text(),
-                     result.diagnosis ? sheets_json(result.rig, *result.diagnosis) : "[]");
+      boards.push_back(outline_json({pose * Eigen::Vector3d(0, 0, 0), pose * Eigen::Vector3d(w, 0, 0),
+                                     pose * Eigen::Vector3d(w, h, 0), pose * Eigen::Vector3d(0, h, 0)}));
+  return {{"cameras", cameras},
+          {"boards", boards},
+          {"sheets", result.diagnosis ? sheets_json(result.rig, *result.diagnosis) : json::array()}};
 }
 
 /// The pictures with or without a complaint, with their overlays.
-std::string pictures_json(const std::vector<SeenPicture>& pictures, bool rejected) {
+json pictures_json(const std::vector<SeenPicture>& pictures, bool rejected) {
   constexpr int kWidthPx = 420;
-  std::vector<std::string> texts(pictures.size());
+  std::vector<json> drawn(pictures.size());
   const auto draw = [&](std::size_t i) {
     const auto& p = pictures[i];
     if (p.reason.empty() == rejected) return;
     const OverlayPicture overlay = draw_board(p, kWidthPx);
-    texts[i] = fmt::format(
-        "{{\"sensor\": {}, \"image\": {}, \"reason\": {}, \"picture\": \"data:image/jpeg;base64,{}\"}}",
-        json(p.sensor), json(p.image), json(p.reason),
-        base64(encode_jpeg(overlay.rgb, overlay.width, overlay.height)));
+    drawn[i] = {{"sensor", p.sensor},
+                {"image", p.image},
+                {"reason", p.reason},
+                {"picture", "data:image/jpeg;base64," +
+                                base64(encode_jpeg(overlay.rgb, overlay.width, overlay.height))}};
   };
   parallel_for(pictures.size(), draw);
-  JsonList list;
-  for (const auto& text : texts)
-    if (!text.empty()) list.add(text);
-  return list.text();
+  json list = json::array();
+  for (auto& one : drawn)
+    if (!one.is_null()) list.push_back(std::move(one));
+  return list;
 }
 
-std::string report_data(const SessionObservations& seen, const CalibrationResult& result) {
+json report_data(const SessionObservations& seen, const CalibrationResult& result) {
   const auto& quality = result.rig.quality;
   const CalibrationDiagnosis none;
   const CalibrationDiagnosis& diagnosis = result.diagnosis ? *result.diagnosis : none;
   const auto& cross = diagnosis.cross_validation;
-  JsonList warnings;
-  for (const auto& warning : quality.warnings) warnings.add(json(warning));
-  std::string sigma;
-  for (const auto& [name, value] : quality.sigma)
-    sigma += fmt::format("{}{}: {}", sigma.empty() ? "" : ", ", json(name), json(value));
-  return fmt::format(
-      "{{\"usable\": {}, \"message\": {}, \"warnings\": {}, \"shape_mm\": {}, \"absolute_mm\": {}, "
-      "\"warp_mm\": [{}, {}],\n"
-      "\"weakest\": {}, \"cross_validation\": {{\"done\": {}, \"why_not\": {}, \"difference_mm\": {}, "
-      "\"predicted_mm\": {}}},\n"
-      "\"sensors\": {},\n\"views\": {},\n\"map\": {},\n\"rig3d\": {},\n\"sigma\": {{{}}},\n\"residuals\": "
-      "{},\n"
-      "\"rejected\": {},\n\"used\": {}}}",
-      result.summary.usable, json(result.summary.message), warnings.text(),
-      json(quality.section_shape_sigma_mm), json(quality.section_absolute_sigma_mm),
-      json(result.summary.board_warp_mm.x()), json(result.summary.board_warp_mm.y()), json(diagnosis.weakest),
-      cross.done, json(cross.why_not), json(cross.difference_mm), json(cross.predicted_mm),
-      sensors_json(result), views_json(result.summary), map_json(diagnosis), rig_json(seen, result), sigma,
-      residuals_json(diagnosis), pictures_json(seen.pictures, true), pictures_json(seen.pictures, false));
-}
-
-void replace(std::string& text, std::string_view mark, std::string_view with) {
-  const auto at = text.find(mark);
-  if (at != std::string::npos) text.replace(at, mark.size(), with);
+  return {{"usable", result.summary.usable},
+          {"message", result.summary.message},
+          {"warnings", quality.warnings},
+          {"shape_mm", quality.section_shape_sigma_mm},
+          {"absolute_mm", quality.section_absolute_sigma_mm},
+          {"warp_mm", {result.summary.board_warp_mm.x(), result.summary.board_warp_mm.y()}},
+          {"weakest", diagnosis.weakest},
+          {"cross_validation",
+           {{"done", cross.done},
+            {"why_not", cross.why_not},
+            {"difference_mm", cross.difference_mm},
+            {"predicted_mm", cross.predicted_mm}}},
+          {"stripes", stripes_json(result.summary)},
+          {"sensors", sensors_json(result)},
+          {"views", views_json(result.summary)},
+          {"map", map_json(diagnosis)},
+          {"rig3d", rig_json(seen, result)},
+          {"sigma", quality.sigma},
+          {"residuals", residuals_json(diagnosis)},
+          {"rejected", pictures_json(seen.pictures, true)},
+          {"used", pictures_json(seen.pictures, false)}};
 }
 
 }  // namespace
 
 std::string calibration_report(const SessionObservations& seen, const CalibrationResult& result) {
-  std::string page(report_page()), libraries;
-  for (const auto library : {chart_library(), three_library(), orbit_controls()})
-    libraries += fmt::format("<script>{}</script>\n", library);
-  replace(page, "/*PAGE*/", report_script());
-  replace(page, "<!--DATA-->", report_data(seen, result));
-  replace(page, "<!--LIBRARIES-->", libraries);
-  return page;
+  return assemble_page({.title = "lightstripe calibration",
+                        .name = "calibration",
+                        .libraries = {"chart.js", "three.js", "OrbitControls.js"},
+                        .data = report_data(seen, result)});
 }
 
 }  // namespace lightstripe

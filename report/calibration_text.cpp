@@ -7,6 +7,11 @@
 namespace lightstripe {
 namespace {
 
+/// At least two digits that count: a predicted error of 0.0000 mm would be a promise.
+std::string millimetres(double value) {
+  return value >= 1e-3 ? fmt::format("{:.4f}", value) : fmt::format("{:.2g}", value);
+}
+
 std::string describe_rejected(const std::vector<RejectedImage>& rejected) {
   std::string text;
   for (const auto& image : rejected)
@@ -45,14 +50,24 @@ std::string describe_calibration(const SessionObservations& seen, const Calibrat
   text += describe_lenses(result.summary.lenses);
   const RigQuality& quality = result.rig.quality;
   for (const auto& s : quality.sensors)
-    text += fmt::format("{}: corners {:.3f} px rms in {} views, stripe {:.3f} px rms in {} views\n", s.name,
-                        s.board_rms_px, s.board_views, s.stripe_rms_px, s.stripe_views);
+    text += fmt::format("{}: corners {:.3f} px rms in {} views{}\n", s.name, s.board_rms_px, s.board_views,
+                        s.stripe_views > 0 ? fmt::format(", stripe {:.3f} px rms in {} views",
+                                                         s.stripe_rms_px, s.stripe_views)
+                                           : ", no stripe");
   if (quality.section_shape_sigma_mm > 0)
-    text += fmt::format("predicted error of a section: {:.4f} mm in shape, {:.3f} mm in place\n",
-                        quality.section_shape_sigma_mm, quality.section_absolute_sigma_mm);
-  if (quality.cross_validation_ratio > 0)
+    text += fmt::format("predicted error of a section: {} mm in shape, {} mm in place\n",
+                        millimetres(quality.section_shape_sigma_mm),
+                        millimetres(quality.section_absolute_sigma_mm));
+  for (const auto& stripes : result.summary.stripes)
+    text += fmt::format("{}{}: {} of {} stripes lie in the laser plane\n", stripes.sensor,
+                        stripes.plane > 0 ? fmt::format(", laser plane {}", stripes.plane + 1) : "",
+                        stripes.agreeing, stripes.found);
+  if (quality.cross_validation_ratio)
     text += fmt::format("every other view against the rest: sections differ by {:.2f} times the prediction\n",
-                        quality.cross_validation_ratio);
+                        *quality.cross_validation_ratio);
+  else if (result.diagnosis)
+    text += "every other view against the rest: not compared, " + result.diagnosis->cross_validation.why_not +
+            "\n";
   if (!quality.weakest.empty()) text += "weakest: " + quality.weakest + "\n";
   while (!text.empty() && text.back() == '\n') text.pop_back();
   return text;

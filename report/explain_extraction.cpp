@@ -24,20 +24,22 @@ std::string rule(const ExtractionOptions& options) {
 
 }  // namespace
 
-std::string explain_extraction(const std::string& image, const ExtractionOptions& options,
+std::string explain_extraction(const std::string& image, Channel channel, const ExtractionOptions& options,
                                const ExtractionResult& result) {
   const BilevelThresholds& t = result.levels;
   return fmt::format(
       "{}\n"
+      "  channel      {}\n"
       "  grey levels  T_min {:g} (background), T_rosin {:g}, T_otsu {:g}, T_max {:g}\n"
       "  decision     {}\n"
       "  thresholds   {}: T_l {:g} (background below), T_h {:g} (foreground above)\n"
       "  noise        {:.2f} grey levels\n"
       "  scale        sigma {:.2f} px = stripe width {:.1f} px{}\n"
       "  found        {} lines",
-      image, t.t_min, t.t_rosin, t.t_otsu, t.t_max, decision(options, t), rule(options), result.threshold_low,
-      result.threshold_high, result.noise, result.sigma, result.sigma * 3.4641016151377544,
-      options.sigma || options.stripe_width ? ", as given" : ", estimated", result.stripes.size());
+      image, enum_name(channel), t.t_min, t.t_rosin, t.t_otsu, t.t_max, decision(options, t), rule(options),
+      result.threshold_low, result.threshold_high, result.noise, result.sigma,
+      result.sigma * 3.4641016151377544, options.sigma || options.stripe_width ? ", as given" : ", estimated",
+      result.stripes.size());
 }
 
 }  // namespace lightstripe

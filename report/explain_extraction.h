@@ -6,11 +6,12 @@
 #include <string>
 
 #include "extraction/extract_stripes.h"
+#include "io/images.h"
 
 namespace lightstripe {
 
 /// Several lines: the four grey levels, the decision about disturbing light, the thresholds, noise and scale.
-std::string explain_extraction(const std::string& image, const ExtractionOptions& options,
+std::string explain_extraction(const std::string& image, Channel channel, const ExtractionOptions& options,
                                const ExtractionResult& result);
 
 }  // namespace lightstripe

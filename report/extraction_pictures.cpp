@@ -28,8 +28,10 @@ std::vector<fs::path> overlay_files(const std::vector<std::string>& images, cons
   return names;
 }
 
-void write_overlay(const fs::path& file, const Image8& image, const ExtractionResult& result) {
-  write_rgb_image(file, draw_overlay(image, result.stripes), image.width, image.height);
+void write_overlay(const fs::path& file, const fs::path& image, const ExtractionResult& result) {
+  RgbImage picture = read_rgb_image(image);
+  draw_stripes(picture.pixels, picture.width, picture.height, result.stripes);
+  write_rgb_image(file, picture.pixels, picture.width, picture.height);
 }
 
 fs::path histogram_file(const fs::path& overlay) {
@@ -37,9 +39,11 @@ fs::path histogram_file(const fs::path& overlay) {
   return picture.replace_filename(overlay.stem().string() + "_histogram.png");
 }
 
-void write_histogram(const fs::path& overlay, const Image8& image, const ExtractionResult& result) {
-  write_rgb_image(histogram_file(overlay), draw_histogram(compute_histogram(image.view()), result),
-                  kHistogramPlotWidth, kHistogramPlotHeight);
+void write_histogram(const fs::path& overlay, const GreyImage& image, const ExtractionResult& result) {
+  const Histogram histogram =
+      std::visit([](const auto& pixels) { return compute_histogram(pixels.view()); }, image);
+  write_rgb_image(histogram_file(overlay), draw_histogram(histogram, result), kHistogramPlotWidth,
+                  kHistogramPlotHeight);
 }
 
 }  // namespace lightstripe

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "core/image.h"
 #include "extraction/result.h"
+#include "io/images.h"
 
 namespace lightstripe {
 
@@ -17,14 +17,15 @@ namespace lightstripe {
 std::vector<std::filesystem::path> overlay_files(const std::vector<std::string>& images,
                                                  const std::filesystem::path& folder);
 
-/// Writes the image with its lines drawn in.
-void write_overlay(const std::filesystem::path& file, const Image8& image, const ExtractionResult& result);
+/// Writes the original picture of the file `image` with its lines drawn in.
+void write_overlay(const std::filesystem::path& file, const std::filesystem::path& image,
+                   const ExtractionResult& result);
 
 /// The histogram's file beside the overlay.
 std::filesystem::path histogram_file(const std::filesystem::path& overlay);
 
 /// Writes the image's histogram with the thresholds beside the overlay, as <overlay>_histogram.png.
-void write_histogram(const std::filesystem::path& overlay, const Image8& image,
+void write_histogram(const std::filesystem::path& overlay, const GreyImage& image,
                      const ExtractionResult& result);
 
 }  // namespace lightstripe

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The lightstripe authors
 // SPDX-License-Identifier: Apache-2.0
-// measure.html: one file, no network. What was measured along the track, worst places first, sections drawn.
+// measure.html: one file, no network. What was measured along the track, the worst places, sections drawn.
 #pragma once
 
 #include <filesystem>
@@ -10,10 +10,13 @@
 
 namespace lightstripe {
 
-/// `page` is where the text will be written, and `scan_file` (may be empty) names the scan that the sections
-/// are of: its pictures are linked to, as seen from the page.
+struct MeasureReportPlaces {
+  std::filesystem::path page;       ///< where the text will be written: links are seen from there
+  std::filesystem::path scan_file;  ///< of the sections: its pictures are shown and linked to; may be empty
+  std::string view;                 ///< link to the page that shows the cloud; may be empty
+};
+
 std::string measure_report_html(const MeasureJob& job, const MeasureResult& result,
-                                const std::filesystem::path& page,
-                                const std::filesystem::path& scan_file = {});
+                                const MeasureReportPlaces& places);
 
 }  // namespace lightstripe

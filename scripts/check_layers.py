@@ -1,81 +1,104 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The lightstripe authors
 # SPDX-License-Identifier: Apache-2.0
-"""Checks who includes whom: the table of docs/architecture.md, and heavy libraries at their edge; and that no two headers
-define a type of one name: a program that links both would mix them up without a word (one definition rule).
+"""Checks who includes whom against cmake/layers.txt: our own rooms, heavy libraries at their edge, headers that are there; that no
+two headers define a type of one name (a program that links both would mix them up without a word: one definition rule); and that
+docs/architecture.md shows the table as it is.
 
-usage: check_layers.py ROOT; prints file:line for every complaint, exit code 1 if there is one.
+usage: check_layers.py ROOT [--write]; prints file:line for every complaint, exit code 1 if there is one. --write: brings the table
+in docs/architecture.md up to date.
 """
 import pathlib
 import re
 import sys
 
-# folder -> our own folders that it may include (besides itself)
-MAY_INCLUDE = {
-    "core": set(),
-    "parallel": {"core"},
-    "io": {"core"},
-    "extraction": {"core"},
-    "calib": {"extraction", "parallel", "core"},
-    "reconstruct": {"extraction", "parallel", "core"},
-    "measure": {"core"},
-    "simulate": {"core", "io", "parallel"},
-    "pipeline": {"core", "io", "parallel", "extraction", "calib", "reconstruct", "measure"},
-    "report": {"core", "io", "parallel", "extraction", "calib", "reconstruct", "measure", "pipeline"},
-    "truth": {"core", "io", "measure", "pipeline"},
-    "apps": {"core", "io", "parallel", "extraction", "calib", "reconstruct", "measure", "simulate", "pipeline", "report", "truth"},
-}
-# library's include prefix -> folders where it may appear
-LIBRARY_IN = {
-    r"ceres/": {"calib"},
-    r"pcl/": {"reconstruct"},
-    r"yaml-cpp/": {"io"},
-    r"opencv2/(imgcodecs|videoio|highgui)": {"io"},
-    r"opencv2/calib3d|opencv2/aruco|opencv2/objdetect": {"calib"},
-    r"opencv2/": {"io", "calib", "extraction", "simulate", "pipeline", "report", "apps"},
-    r"CLI/": {"apps"},
-    r"fmt/": {"io", "calib", "reconstruct", "simulate", "measure", "pipeline", "report", "truth", "apps"},
-    r"tbb/|oneapi/tbb": {"parallel"},
-    r"hwy/": {"extraction"},
-}
-# the direction-guided core needs the standard library and Highway only
-NO_OPENCV_FILES = re.compile(r"extraction/(follow|kernels|image|lines)/")
-TYPE = re.compile(r"^(?:struct|class|enum class) (\w+)(?: final)?(?:\s*:[^{;]*)?\s*\{", re.MULTILINE)
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
+TYPE = re.compile(r"^(?:struct|class|enum class) (\w+)(?: final)?(?:\s*:[^{;]*)?\s*\{", re.MULTILINE)
+# The direction-guided core needs the standard library and Highway only.
+NO_OPENCV_FILES = re.compile(r"extraction/(follow|kernels|image|lines)/")
+TESTS_OF_EVERYTHING = {"apps", "fuzz", "consumer"}
+GENERATED = {"io/embedded_profiles.h", "report/embedded_pages.h", "tests/test_paths.h"}  # by CMake
+BEGIN, END = "<!-- layers: begin -->\n", "<!-- layers: end -->\n"
 
 
-def folder_of(path):
+class Table:
+    def __init__(self, path):
+        self.rooms = []  # (kind, name, names of the rooms that it may include, what it holds)
+        self.external = []  # (pattern, rooms)
+        for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
+            if not line.strip() or line.startswith("#"):
+                continue
+            cells = [cell.strip() for cell in re.split(r" \| ?", line)]
+            if cells[0] == "external" and len(cells) == 3:
+                self.external.append((re.compile(cells[1]), set(cells[2].split())))
+            elif cells[0] in {"library", "program", "tests"} and len(cells) == 4:
+                self.rooms.append((cells[0], cells[1], cells[2].split(), cells[3]))
+            else:
+                sys.exit(f"{path}:{number}: is no row of the table")
+        self.allowed = {name: set(may) for _, name, may, _ in self.rooms}
+
+    def may_include(self, room, path):
+        """What a file of this room may include, itself among it."""
+        if room != "tests":
+            return self.allowed[room] | {room}
+        tested = path.parts[1] if len(path.parts) > 2 else ""
+        if tested in TESTS_OF_EVERYTHING or tested not in self.allowed:
+            return set(self.allowed)
+        return self.allowed[tested] | {tested, "tests"} | self.allowed["tests"]
+
+    def page(self, root):
+        rows = ["| folder | holds | may include |\n|---|---|---|\n"]
+        for _, name, may, holds in self.rooms:
+            folder = f"src/{name}" if (root / "src" / name).is_dir() else name
+            rows.append(f"| `{folder}` | {holds} | {', '.join(may) or 'Eigen, the standard library'} |\n")
+        return "".join(rows)
+
+
+def room_of(path):
     return path.parts[1] if path.parts[0] == "src" else path.parts[0]
 
 
-def complaints(root):
+def sources(root, table):
     for path in sorted(root.rglob("*")):
         relative = path.relative_to(root)
-        if path.suffix not in {".h", ".cpp"} or len(relative.parts) < 2 or folder_of(relative) not in MAY_INCLUDE:
-            continue
-        folder = folder_of(relative)
+        if path.suffix in {".h", ".cpp"} and len(relative.parts) > 1 and room_of(relative) in table.allowed:
+            yield path, relative
+
+
+def is_there(root, path, name):
+    roots = [path.parent, root, root / "src", root / "tests", root / "tests" / "extraction"]
+    return any((base / name).exists() for base in roots)
+
+
+def complaints_of_line(root, table, path, relative, match):
+    room, name = room_of(relative), match.group(2)
+    target = name.split("/")[0]
+    if target in table.allowed and match.group(1) == '"':
+        if target not in table.may_include(room, relative):
+            yield f"{room} may not include {target}"
+        if name not in GENERATED and not is_there(root, path, name):
+            yield f"{name} does not exist"
+    for pattern, rooms in table.external:
+        if pattern.match(name):
+            if room not in rooms:
+                yield f"{room} may not use {name}"
+            break
+    if name.startswith("opencv2/") and NO_OPENCV_FILES.match(str(relative)):
+        yield f"the direction-guided core may not use {name}"
+
+
+def complaints(root, table):
+    for path, relative in sources(root, table):
         for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
-            match = INCLUDE.match(line)
-            if not match:
-                continue
-            name = match.group(2)
-            target = name.split("/")[0]
-            if target in MAY_INCLUDE and target != folder and target not in MAY_INCLUDE[folder]:
-                yield f"{relative}:{number}: {folder} may not include {target}"
-            for prefix, folders in LIBRARY_IN.items():
-                if re.match(prefix, name):
-                    if folder not in folders:
-                        yield f"{relative}:{number}: {folder} may not use {name}"
-                    break
-            if name.startswith("opencv2/") and NO_OPENCV_FILES.match(str(relative)):
-                yield f"{relative}:{number}: the direction-guided core may not use {name}"
+            if match := INCLUDE.match(line):
+                for text in complaints_of_line(root, table, path, relative, match):
+                    yield f"{relative}:{number}: {text}"
 
 
-def types_defined_twice(root):
+def types_defined_twice(root, table):
     defined_in = {}
-    for path in sorted(root.rglob("*.h")):
-        relative = path.relative_to(root)
-        if len(relative.parts) < 2 or folder_of(relative) not in MAY_INCLUDE:
+    for path, relative in sources(root, table):
+        if path.suffix != ".h" or room_of(relative) == "tests":
             continue
         for match in TYPE.finditer(path.read_text(encoding="utf-8")):
             first = defined_in.setdefault(match.group(1), relative)
@@ -83,9 +106,26 @@ def types_defined_twice(root):
                 yield f"{relative}: {match.group(1)} is defined in {first} too; give one of them another name"
 
 
+def page_is_old(root, table, write):
+    page = root / "docs" / "architecture.md"
+    text = page.read_text(encoding="utf-8")
+    if BEGIN not in text or END not in text:
+        return [f"{page.relative_to(root)}: lacks the marks {BEGIN.strip()} and {END.strip()}"]
+    before, rest = text.split(BEGIN, 1)
+    old, after = rest.split(END, 1)
+    if old == table.page(root):
+        return []
+    if write:
+        page.write_text(before + BEGIN + table.page(root) + END + after, encoding="utf-8")
+        return []
+    return [f"{page.relative_to(root)}: shows another table than cmake/layers.txt; run scripts/check_layers.py . --write"]
+
+
 def main():
     root = pathlib.Path(sys.argv[1])
-    found = list(complaints(root)) + list(types_defined_twice(root))
+    table = Table(root / "cmake" / "layers.txt")
+    found = list(complaints(root, table)) + list(types_defined_twice(root, table))
+    found += page_is_old(root, table, "--write" in sys.argv[2:])
     print("\n".join(found) if found else "layers: clean")
     return 1 if found else 0
 

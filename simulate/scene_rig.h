@@ -69,16 +69,16 @@ constexpr std::array<EnumName<Pictures>, 3> enum_names(Pictures) {
   return {{{Pictures::kGrey, "grey"}, {Pictures::kRgb, "rgb"}, {Pictures::kBayer, "bayer"}}};
 }
 
-enum class LaserColour { kRed, kGreen, kBlue };
-constexpr std::array<EnumName<LaserColour>, 3> enum_names(LaserColour) {
-  return {{{LaserColour::kRed, "red"}, {LaserColour::kGreen, "green"}, {LaserColour::kBlue, "blue"}}};
+enum class LaserHue { kRed, kGreen, kBlue };
+constexpr std::array<EnumName<LaserHue>, 3> enum_names(LaserHue) {
+  return {{{LaserHue::kRed, "red"}, {LaserHue::kGreen, "green"}, {LaserHue::kBlue, "blue"}}};
 }
 
 /// A colour camera: ambient light is white, the laser shines into its own channel and leaks into the others,
 /// so that an overexposed stripe has a white core and a coloured rim.
 struct ColourCamera {
   Pictures pictures = Pictures::kGrey;
-  LaserColour laser = LaserColour::kRed;
+  LaserHue laser = LaserHue::kRed;
   double crosstalk = 0.12;
 };
 

@@ -9,9 +9,9 @@ namespace lightstripe {
 using Eigen::Vector2d;
 
 BoardPlace board_place(const Target& target, const Vector2d& xy) {
-  const Vector2d half(0.5 * (target.columns - 1) * target.pitch_x, 0.5 * (target.rows - 1) * target.pitch_y);
+  const Vector2d half = target.middle();
   const Vector2d at = (xy - half).cwiseQuotient(half);
-  return {xy, Vector2d::Ones() - at.cwiseAbs2(), -2 * at.cwiseQuotient(half)};
+  return {xy, Vector2d::Ones() - at.cwiseAbs2(), -2 * at.cwiseQuotient(half), 0};
 }
 
 std::optional<BoardPlace> seen_place(const Target& target, const Camera& camera, const Rigid3& cam_from_board,
@@ -21,6 +21,20 @@ std::optional<BoardPlace> seen_place(const Target& target, const Camera& camera,
       ray ? intersect(board_plane(cam_from_board), Eigen::Vector3d::Zero(), *ray) : std::nullopt;
   if (!p_cam) return std::nullopt;
   return board_place(target, (cam_from_board.inverse() * *p_cam).head<2>());
+}
+
+Rigid3 raised(const Rigid3& cam_from_board, double height_mm) {
+  return cam_from_board * Rigid3{Eigen::Quaterniond::Identity(), {0, 0, -height_mm}};
+}
+
+std::optional<BoardPlace> seen_place_on_top(const Camera& camera, const Rigid3& cam_from_board,
+                                            double height_mm, const Vector2d& pixel) {
+  const Rigid3 cam_from_top = raised(cam_from_board, height_mm);
+  const auto ray = unproject(camera, pixel);
+  const auto p_cam = ray ? intersect(board_plane(cam_from_top), Eigen::Vector3d::Zero(), *ray) : std::nullopt;
+  if (!p_cam) return std::nullopt;
+  return BoardPlace{(cam_from_top.inverse() * *p_cam).head<2>(), Vector2d::Zero(), Vector2d::Zero(),
+                    -height_mm};
 }
 
 Plane tangent_plane(const BoardPlace& place, const Vector2d& warp, const Rigid3& cam_from_board) {

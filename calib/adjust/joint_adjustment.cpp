@@ -20,9 +20,9 @@ enum class Spread { kMedian, kRms };
 /// Groups of equal error: a sensor's corners, its stripe points, and its corners of the travelling views,
 /// which carry the travel's own error.
 constexpr std::size_t kGroups = 3;
-std::size_t group_of(const SessionViews& measurements, const Residual& measurement) {
-  const auto& view = measurements.views[measurement.view];
-  const std::size_t kind = !measurement.is_corner() ? 1 : view.pose < 0 ? 2 : 0;
+std::size_t group_of(const SessionViews& session, const Residual& residual) {
+  const auto& view = session.views[residual.view];
+  const std::size_t kind = !residual.is_corner() ? 1 : view.pose < 0 ? 2 : 0;
   return kGroups * static_cast<std::size_t>(view.sensor) + kind;
 }
 
@@ -30,10 +30,10 @@ double stripe_sigma_px(const StripePoint& point, const CalibrationOptions& optio
   return std::hypot(point.sigma_px, options.stripe_sigma_floor_px);
 }
 
-std::vector<Residual> list_measurements(const SessionViews& measurements, const CalibrationOptions& options) {
+std::vector<Residual> list_residuals(const SessionViews& session, const CalibrationOptions& options) {
   std::vector<Residual> list;
-  for (std::size_t v = 0; v < measurements.views.size(); ++v) {
-    const auto& view = measurements.views[v];
+  for (std::size_t v = 0; v < session.views.size(); ++v) {
+    const auto& view = session.views[v];
     for (std::size_t i = 0; i < view.corners.size(); ++i)
       if (is_seen(view.corners[i])) list.push_back({v, -1, i, options.corner_sigma_px});
     for (std::size_t p = 0; p < view.stripes.size(); ++p)
@@ -44,13 +44,13 @@ std::vector<Residual> list_measurements(const SessionViews& measurements, const 
 }
 
 /// Stripe points that no ray explains in this state are of no use in the next round.
-void drop_unseen(const SessionViews& measurements, const RigState& state, std::vector<Residual>& list) {
-  for (auto& measurement : list) {
-    if (measurement.is_corner() || !measurement.used) continue;
-    const auto& view = measurements.views[measurement.view];
-    const auto p = static_cast<std::size_t>(measurement.plane);
-    const auto& point = view.stripes[p][measurement.index];
-    measurement.used = seen_stripe_point(measurements, state, view, p, {point.x, point.y}).has_value();
+void drop_unseen(const SessionViews& session, const RigState& state, std::vector<Residual>& list) {
+  for (auto& residual : list) {
+    if (residual.is_corner() || !residual.used) continue;
+    const auto& view = session.views[residual.view];
+    const auto p = static_cast<std::size_t>(residual.plane);
+    const auto& point = view.stripes[p][residual.index];
+    residual.used = seen_stripe_point(session, state, view, p, {point.x, point.y}).has_value();
   }
 }
 
@@ -60,10 +60,9 @@ void read_residuals(JointProblem& joint, std::vector<Residual>& list) {
   std::vector<double> residuals;
   joint.problem().Evaluate(options, nullptr, &residuals, nullptr, nullptr);
   auto next = residuals.cbegin();
-  for (auto& measurement : list) {
-    if (!measurement.used) continue;
-    for (int i = 0; i < measurement.dimension(); ++i)
-      measurement.residual_px[i] = *next++ * measurement.sigma_px;
+  for (auto& residual : list) {
+    if (!residual.used) continue;
+    for (int i = 0; i < residual.dimension(); ++i) residual.residual_px[i] = *next++ * residual.sigma_px;
   }
 }
 
@@ -80,34 +79,32 @@ double spread_of(std::vector<double> normalised, Spread spread) {
 
 /// Scales the sigmas of each group so that its normalised residuals have unit spread (variance components);
 /// `redundancy` = 1 - unknowns / residuals.
-void estimate_sigmas(const SessionViews& measurements, Spread spread, double redundancy,
+void estimate_sigmas(const SessionViews& session, Spread spread, double redundancy,
                      std::vector<Residual>& list) {
-  std::vector<std::vector<double>> groups(kGroups * measurements.sensor_names.size());
-  for (const auto& measurement : list) {
-    if (!measurement.used) continue;
-    auto& group = groups[group_of(measurements, measurement)];
-    for (int i = 0; i < measurement.dimension(); ++i)
-      group.push_back(std::abs(measurement.residual_px[i]) / measurement.sigma_px);
+  std::vector<std::vector<double>> groups(kGroups * session.sensor_names.size());
+  for (const auto& residual : list) {
+    if (!residual.used) continue;
+    auto& group = groups[group_of(session, residual)];
+    for (int i = 0; i < residual.dimension(); ++i)
+      group.push_back(std::abs(residual.residual_px[i]) / residual.sigma_px);
   }
   std::vector<double> scales;
   scales.reserve(groups.size());
   for (auto& group : groups)
     scales.push_back(
         group.size() < kMinForSigma ? 1.0 : spread_of(std::move(group), spread) / std::sqrt(redundancy));
-  for (auto& measurement : list)
-    measurement.sigma_px =
-        std::max(kMinSigmaPx, measurement.sigma_px * scales[group_of(measurements, measurement)]);
+  for (auto& residual : list)
+    residual.sigma_px = std::max(kMinSigmaPx, residual.sigma_px * scales[group_of(session, residual)]);
 }
 
 void remove_outliers(double limit, std::vector<Residual>& list) {
-  for (auto& measurement : list) measurement.used = measurement.used && measurement.normalised() <= limit;
+  for (auto& residual : list) residual.used = residual.used && residual.normalised() <= limit;
 }
 
 /// Terms that the lens model does not have are 0, those of a fixed camera stay.
-RigState with_terms_of(const std::vector<LensModel>& lenses, const SessionViews& measurements,
-                       RigState state) {
+RigState with_terms_of(const std::vector<LensModel>& lenses, const SessionViews& session, RigState state) {
   for (std::size_t s = 0; s < state.sensors.size(); ++s) {
-    if (measurements.given_cameras[s] && measurements.given_cameras[s]->fixed) continue;
+    if (session.given_cameras[s] && session.given_cameras[s]->fixed) continue;
     auto& terms = state.sensors[s].camera.distortion;
     std::array<double, kDistortionTerms> kept{};
     for (const int i : free_terms(lenses[s]))
@@ -122,44 +119,61 @@ double redundancy_of(const ceres::Solver::Summary& summary) {
                                  summary.num_residuals_reduced);
 }
 
-}  // namespace
+constexpr double kRoughTolerance = 1e-8, kFinalTolerance = 1e-11;
 
-JointAdjustment adjust_jointly(const SessionViews& measurements, const RigState& start,
-                               const std::vector<LensModel>& lenses, const CalibrationOptions& options) {
-  using Loss = ProblemOptions::Loss;
-  enum { kGivenSigmas, kRobustSigmas, kWithoutOutliers, kFinal, kRounds };
-  // Huber finds its way from a rough start; Cauchy then lets go of a stripe or a view that is wrong as a
-  // whole.
-  static constexpr std::array<Loss, kRounds> kLosses{Loss::kHuber, Loss::kCauchy, Loss::kSquared,
-                                                     Loss::kSquared};
+/// The adjustment while its rounds run.
+struct Rounds {
+  const SessionViews& session;
+  const CalibrationOptions& options;
   JointAdjustment result;
-  result.state = with_terms_of(lenses, measurements, start);
-  result.lenses = lenses;
-  result.measurements = list_measurements(measurements, options);
-  for (std::size_t round = 0; round < kRounds; ++round) {
-    drop_unseen(measurements, result.state, result.measurements);
-    JointProblem joint(measurements, result.state, result.measurements,
-                       {lenses, options.board_warp, kLosses[round], options.robust_scale});
-    const auto summary = solve_problem(joint, options.max_iterations, round < kFinal ? 1e-8 : 1e-11);
+  double redundancy = 1;  ///< of the last solve
+
+  /// One round: solves with this loss from the state so far; false where Ceres found no usable step. With
+  /// `covariance` the shared unknowns' covariance is taken at the end.
+  bool solve(ProblemOptions::Loss loss, double tolerance, bool covariance = false) {
+    drop_unseen(session, result.state, result.residuals);
+    JointProblem joint(session, result.state, result.residuals,
+                       {result.lenses, options.board_warp, loss, options.robust_scale});
+    const auto summary = solve_problem(joint, options.max_iterations, tolerance);
     result.iterations += static_cast<int>(summary.iterations.size());
     result.converged = summary.termination_type == ceres::CONVERGENCE;
-    if (!summary.IsSolutionUsable()) return result;
+    if (!summary.IsSolutionUsable()) return false;
     result.state = joint.state();
-    read_residuals(joint, result.measurements);
-    const double redundancy = redundancy_of(summary);
-    if (round == kGivenSigmas || round == kRobustSigmas)
-      estimate_sigmas(measurements, Spread::kMedian, redundancy, result.measurements);
-    if (round == kRobustSigmas) remove_outliers(options.outlier_sigma, result.measurements);
-    if (round == kWithoutOutliers)
-      estimate_sigmas(measurements, Spread::kRms, redundancy, result.measurements);
-    if (round != kFinal) continue;
+    read_residuals(joint, result.residuals);
+    redundancy = redundancy_of(summary);
+    if (!covariance) return true;
     result.sigma0 = std::sqrt(2 * summary.final_cost / summary.num_residuals_reduced / redundancy);
     result.globals = joint.globals();
     const auto reduced = reduced_covariance(joint);
     result.covariance = result.sigma0 * result.sigma0 * reduced.covariance;
     result.condition = reduced.condition;
+    return true;
   }
-  return result;
+};
+
+}  // namespace
+
+JointAdjustment adjust_jointly(const SessionViews& session, const RigState& start,
+                               const std::vector<LensModel>& lenses, const CalibrationOptions& options) {
+  using Loss = ProblemOptions::Loss;
+  Rounds rounds{session, options, {}};
+  auto& residuals = rounds.result.residuals;
+  rounds.result.state = with_terms_of(lenses, session, start);
+  rounds.result.lenses = lenses;
+  residuals = list_residuals(session, options);
+
+  // Huber finds its way from a rough start with the sigmas that were given.
+  if (!rounds.solve(Loss::kHuber, kRoughTolerance)) return rounds.result;
+  estimate_sigmas(session, Spread::kMedian, rounds.redundancy, residuals);
+  // Cauchy lets go of a stripe or a view that is wrong as a whole.
+  if (!rounds.solve(Loss::kCauchy, kRoughTolerance)) return rounds.result;
+  estimate_sigmas(session, Spread::kMedian, rounds.redundancy, residuals);
+  remove_outliers(options.outlier_sigma, residuals);
+  // Least squares without the outliers gives the final sigmas.
+  if (!rounds.solve(Loss::kSquared, kRoughTolerance)) return rounds.result;
+  estimate_sigmas(session, Spread::kRms, rounds.redundancy, residuals);
+  rounds.solve(Loss::kSquared, kFinalTolerance, true);
+  return rounds.result;
 }
 
 }  // namespace lightstripe

@@ -14,7 +14,7 @@ namespace lightstripe {
 
 struct JointAdjustment {
   RigState state;
-  std::vector<Residual> measurements;  ///< with residuals; those not `used` were outliers
+  std::vector<Residual> residuals;  ///< with residuals; those not `used` were outliers
   int iterations = 0;
   bool converged = false;
   std::vector<LensModel> lenses;  ///< for each sensor
@@ -29,7 +29,7 @@ struct JointAdjustment {
 /// of each sensor's corners and stripes; outliers removed, least squares with final sigmas. Same input, same
 /// bits.
 /// `lenses`: one for each sensor, none of them kAuto; terms that they do not have start and stay at 0.
-JointAdjustment adjust_jointly(const SessionViews& measurements, const RigState& start,
+JointAdjustment adjust_jointly(const SessionViews& session, const RigState& start,
                                const std::vector<LensModel>& lenses, const CalibrationOptions& options);
 
 }  // namespace lightstripe

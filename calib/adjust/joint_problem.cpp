@@ -72,18 +72,18 @@ ceres::Manifold* axis_point_manifold(const Eigen::Vector3d& direction) {
 
 }  // namespace
 
-JointProblem::JointProblem(const SessionViews& measurements, const RigState& state,
+JointProblem::JointProblem(const SessionViews& session, const RigState& state,
                            const std::vector<Residual>& list, const ProblemOptions& options)
-    : measurements_(&measurements), start_(state), options_(options) {
+    : session_(&session), start_(state), options_(options) {
   store_state(state);
   problem_ = std::make_unique<ceres::Problem>();
   add_blocks(list);
-  for (const auto& measurement : list) {
-    if (!measurement.used) continue;
-    const auto& view = measurements.views[measurement.view];
-    measurement.is_corner() ? add_corner(view, measurement) : add_stripe_point(view, measurement);
+  for (const auto& residual : list) {
+    if (!residual.used) continue;
+    const auto& view = session.views[residual.view];
+    residual.is_corner() ? add_corner(view, residual) : add_stripe_point(view, residual);
   }
-  for (const auto& block : globals_)  // behind the measurements, whose residuals are read in order
+  for (const auto& block : globals_)  // behind the corners and points, whose residuals are read in order
     if (block.kind == GlobalBlock::Kind::kIntrinsics && free_terms(block.lens).size() > kWellKnownTerms)
       problem_->AddResidualBlock(new LensPrior(free_terms(block.lens)), nullptr,
                                  intrinsics_[static_cast<std::size_t>(block.sensor)]);
@@ -130,7 +130,7 @@ void JointProblem::add_constant(double* data, int size) {
 void JointProblem::add_sensor_blocks(std::size_t s) {
   using Kind = GlobalBlock::Kind;
   const int sensor = static_cast<int>(s);
-  const auto& given = measurements_->given_cameras[s];
+  const auto& given = session_->given_cameras[s];
   if (given && given->fixed) {
     add_constant(intrinsics_[s], kIntrinsics);
   } else {
@@ -150,7 +150,7 @@ void JointProblem::add_motion_blocks() {
   using Kind = GlobalBlock::Kind;
   if (!start_.motion) return;
   add_global({Kind::kDirection}, direction_, new ceres::SphereManifold<3>);
-  if (measurements_->motion == MotionType::kRotary) {
+  if (session_->motion == MotionType::kRotary) {
     add_global({Kind::kAxisPoint}, axis_point_, axis_point_manifold(start_.motion->direction));
   } else {
     add_constant(axis_point_, 3);
@@ -165,15 +165,15 @@ void JointProblem::add_blocks(const std::vector<Residual>& list) {
     add_constant(warp_, 2);
   }
   add_motion_blocks();
-  for (const auto& measurement : list) {
-    double* block = pose_block(measurements_->views[measurement.view]);
-    if (!measurement.used || problem_->HasParameterBlock(block)) continue;
+  for (const auto& residual : list) {
+    double* block = pose_block(session_->views[residual.view]);
+    if (!residual.used || problem_->HasParameterBlock(block)) continue;
     problem_->AddParameterBlock(block, 7, new PoseManifold);
     pose_blocks_.push_back(block);
   }
 }
 
-double* JointProblem::pose_block(const ViewMeasurement& view) {
+double* JointProblem::pose_block(const SessionView& view) {
   return view.pose < 0 ? motion_board_ : first_from_board_[static_cast<std::size_t>(view.pose)];
 }
 
@@ -184,43 +184,44 @@ ceres::LossFunction* JointProblem::loss() const {
   return nullptr;
 }
 
-void JointProblem::add_corner(const ViewMeasurement& view, const Residual& measurement) {
+void JointProblem::add_corner(const SessionView& view, const Residual& residual) {
   const auto sensor = static_cast<std::size_t>(view.sensor);
-  const auto& target = measurements_->target;
-  const BoardPlace corner = board_place(target, target.corner(static_cast<int>(measurement.index)));
-  const Eigen::Vector2d& pixel = view.corners[measurement.index];
+  const auto& target = session_->target;
+  const BoardPlace corner = board_place(target, target.corner(static_cast<int>(residual.index)));
+  const Eigen::Vector2d& pixel = view.corners[residual.index];
   double* intrinsics = intrinsics_[sensor];
   double* cam_from_first = cam_from_first_[sensor];
   if (view.pose >= 0) {
-    problem_->AddResidualBlock(new CornerResidual(corner, pixel, measurement.sigma_px), loss(), intrinsics,
+    problem_->AddResidualBlock(new CornerResidual(corner, pixel, residual.sigma_px), loss(), intrinsics,
                                cam_from_first, pose_block(view), warp_);
     return;
   }
-  const double signed_travel = measurements_->motion_sign() * view.travel;
+  const double signed_travel = session_->motion_sign() * view.travel;
   problem_->AddResidualBlock(
-      new TravelCornerResidual(corner, pixel, measurement.sigma_px, measurements_->motion, signed_travel),
-      loss(), intrinsics, cam_from_first, pose_block(view), warp_, direction_, axis_point_);
+      new TravelCornerResidual(corner, pixel, residual.sigma_px, session_->motion, signed_travel), loss(),
+      intrinsics, cam_from_first, pose_block(view), warp_, direction_, axis_point_);
 }
 
-void JointProblem::add_stripe_point(const ViewMeasurement& view, const Residual& measurement) {
+void JointProblem::add_stripe_point(const SessionView& view, const Residual& residual) {
   const auto s = static_cast<std::size_t>(view.sensor);
-  const auto p = static_cast<std::size_t>(measurement.plane);
-  const auto& point = view.stripes[p][measurement.index];
-  const auto seen = seen_stripe_point(*measurements_, start_, view, p, {point.x, point.y});
+  const auto p = static_cast<std::size_t>(residual.plane);
+  const auto& point = view.stripes[p][residual.index];
+  const auto seen = seen_stripe_point(*session_, start_, view, p, {point.x, point.y});
   LIGHTSTRIPE_CHECK(seen.has_value(), "a stripe point that no ray explains must not be used");
   problem_->AddResidualBlock(new StripeResidual(seen->place, {point.x, point.y}, seen->frame.normal,
-                                                seen->frame.across, measurement.sigma_px),
+                                                seen->frame.across, residual.sigma_px),
                              loss(), intrinsics_[s], cam_from_first_[s], pose_block(view), warp_,
                              planes_[s][p]);
 }
 
-std::optional<SeenStripePoint> seen_stripe_point(const SessionViews& measurements, const RigState& state,
-                                                 const ViewMeasurement& view, std::size_t plane,
+std::optional<SeenStripePoint> seen_stripe_point(const SessionViews& session, const RigState& state,
+                                                 const SessionView& view, std::size_t plane,
                                                  const Eigen::Vector2d& pixel) {
   const auto& sensor = state.sensors[static_cast<std::size_t>(view.sensor)];
   const Rigid3 cam_from_board =
       sensor.cam_from_first * state.first_from_board[static_cast<std::size_t>(view.pose)];
-  const auto place = seen_place(measurements.target, sensor.camera, cam_from_board, pixel);
+  const auto place = view.height_mm ? seen_place_on_top(sensor.camera, cam_from_board, *view.height_mm, pixel)
+                                    : seen_place(session.target, sensor.camera, cam_from_board, pixel);
   if (!place) return std::nullopt;
   const auto frame =
       stripe_crossing(sensor.camera, tangent_plane(*place, state.board_warp_mm, cam_from_board),

@@ -53,7 +53,7 @@ struct ProblemOptions {
 /// of the stripe residuals (see StripeResidual) are those of the state given.
 class JointProblem {
  public:
-  JointProblem(const SessionViews& measurements, const RigState& state, const std::vector<Residual>& list,
+  JointProblem(const SessionViews& session, const RigState& state, const std::vector<Residual>& list,
                const ProblemOptions& options);
 
   JointProblem(const JointProblem&) = delete;  // blocks are known by their addresses
@@ -70,8 +70,8 @@ class JointProblem {
   const std::vector<double*>& pose_blocks() const { return pose_blocks_; }
 
  private:
-  void add_corner(const ViewMeasurement& view, const Residual& measurement);
-  void add_stripe_point(const ViewMeasurement& view, const Residual& measurement);
+  void add_corner(const SessionView& view, const Residual& residual);
+  void add_stripe_point(const SessionView& view, const Residual& residual);
   template <std::size_t Size>
   double* store(const std::array<double, Size>& values);
   void store_state(const RigState& state);
@@ -80,10 +80,10 @@ class JointProblem {
   void add_motion_blocks();
   void add_constant(double* data, int size);
   void add_global(GlobalBlock block, double* data, ceres::Manifold* manifold);
-  double* pose_block(const ViewMeasurement& view);
+  double* pose_block(const SessionView& view);
   ceres::LossFunction* loss() const;
 
-  const SessionViews* measurements_;
+  const SessionViews* session_;
   RigState start_;
   ProblemOptions options_;
   /// All unknowns in one array: Ceres orders blocks by address, and sums in that order.
@@ -104,8 +104,8 @@ struct SeenStripePoint {
 };
 
 /// Nothing where no ray of this state explains the point.
-std::optional<SeenStripePoint> seen_stripe_point(const SessionViews& measurements, const RigState& state,
-                                                 const ViewMeasurement& view, std::size_t plane,
+std::optional<SeenStripePoint> seen_stripe_point(const SessionViews& session, const RigState& state,
+                                                 const SessionView& view, std::size_t plane,
                                                  const Eigen::Vector2d& pixel);
 
 /// The state moved by `delta` in the tangent space of its shared unknowns: what column j of the covariance

@@ -8,11 +8,10 @@
 namespace lightstripe {
 namespace {
 
-Motion motion_in_rig(const SessionViews& measurements, const MotionState& state,
-                     const Rigid3& rig_from_first) {
+Motion motion_in_rig(const SessionViews& session, const MotionState& state, const Rigid3& rig_from_first) {
   Motion motion;
-  motion.type = measurements.motion;
-  motion.rig_moves = measurements.rig_moves;
+  motion.type = session.motion;
+  motion.rig_moves = session.rig_moves;
   if (motion.type != MotionType::kRotary) return motion;  // direction = x by the frame's definition
   motion.axis_point = rig_from_first * nearest_point_of_axis(state);
   motion.axis_direction = rig_from_first.rotation * state.direction;
@@ -43,18 +42,18 @@ Eigen::Vector3d nearest_point_of_axis(const MotionState& motion) {
   return motion.axis_point - axis.dot(motion.axis_point) * axis;
 }
 
-Rig rig_of(const SessionViews& measurements, const RigState& state, const Eigen::Vector3d& up) {
-  const Rigid3 rig_from_first_cam = rig_from_first(state, measurements.motion, up);
+Rig rig_of(const SessionViews& session, const RigState& state, const Eigen::Vector3d& up) {
+  const Rigid3 rig_from_first_cam = rig_from_first(state, session.motion, up);
   Rig rig;
   for (std::size_t i = 0; i < state.sensors.size(); ++i) {
     Sensor sensor;
-    sensor.name = measurements.sensor_names[i];
+    sensor.name = session.sensor_names[i];
     sensor.camera = state.sensors[i].camera;
     for (const auto& plane : state.sensors[i].laser_planes) sensor.laser_planes.push_back(canonical(plane));
     sensor.rig_from_camera = rig_from_first_cam * state.sensors[i].cam_from_first.inverse();
     rig.sensors.push_back(std::move(sensor));
   }
-  if (state.motion) rig.motion = motion_in_rig(measurements, *state.motion, rig_from_first_cam);
+  if (state.motion) rig.motion = motion_in_rig(session, *state.motion, rig_from_first_cam);
   return rig;
 }
 

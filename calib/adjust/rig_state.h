@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The lightstripe authors
 // SPDX-License-Identifier: Apache-2.0
-// The unknowns of the joint adjustment and the measurements that determine them, sorted by view.
+// The unknowns of the joint adjustment and the views that determine them, sorted by view.
 // All poses are in the first sensor's camera frame ("first"), mm.
 #pragma once
 
@@ -36,14 +36,18 @@ struct RigState {
   Eigen::Vector2d board_warp_mm = Eigen::Vector2d::Zero();  ///< see board_surface.h
 };
 
-/// One image's measurements. Corners in an order that agrees with the other views of the same pose.
-struct ViewMeasurement {
+/// What one image shows. Corners in an order that agrees with the other views of the same pose.
+struct SessionView {
   int sensor = 0;
   int pose = -1;      ///< index into SessionViews::poses; -1: the fixed board of the motion
   double travel = 0;  ///< motion views only; mm, or radians
   std::string image;
+  bool laser_apart = false;                       ///< the stripe was seen in a picture of its own
   std::vector<Eigen::Vector2d> corners;           ///< px; see is_seen()
   std::vector<std::vector<StripePoint>> stripes;  ///< for each laser plane; thinned to independent points
+  /// The laser on a top that lies this high over the pose's board, towards the camera; no corners.
+  std::optional<double> height_mm;
+  std::vector<std::vector<StripePoint>> lines;  ///< where a height is given: candidates for stripes[0]
 };
 
 struct SessionViews {
@@ -52,10 +56,13 @@ struct SessionViews {
   std::vector<std::array<int, 2>> image_sizes;            ///< px, width and height for each sensor
   std::vector<std::optional<GivenCamera>> given_cameras;  ///< for each sensor
   std::vector<std::string> poses;
-  std::vector<ViewMeasurement> views;  ///< sensor by sensor, motion views last
+  std::vector<SessionView> views;  ///< sensor by sensor, motion views last
   MotionType motion = MotionType::kNone;
   int motion_sensor = 0;
   bool rig_moves = true;
+  /// For each sensor and laser plane: boards that showed a stripe, before any was left out.
+  std::vector<std::vector<int>> stripes_found;
+  std::vector<std::string> left_out;  ///< views and stripes that were seen twice, one sentence each
 
   /// p_seen = p + sign * travel * direction: a rig that moves forward sees the board move backward.
   double motion_sign() const { return rig_moves ? -1.0 : 1.0; }

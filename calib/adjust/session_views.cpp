@@ -18,14 +18,15 @@ using Eigen::Vector2d;
 constexpr int kMinViews = 3;
 constexpr double kDegree = std::numbers::pi / 180;
 
-ViewMeasurement measured(const BoardView& view, int sensor, const Target& target, int laser_planes) {
+SessionView measured(const BoardView& view, int sensor, const Target& target, int laser_planes) {
   LIGHTSTRIPE_CHECK(static_cast<int>(view.corners.size()) == target.num_corners(),
                     view.image + ": a view needs every corner of the board");
   LIGHTSTRIPE_CHECK(static_cast<int>(view.stripes.size()) <= laser_planes,
                     view.image + ": more stripes than laser planes");
-  ViewMeasurement result;
+  SessionView result;
   result.sensor = sensor;
   result.image = view.image;
+  result.laser_apart = view.laser_apart;
   result.corners = view.corners;
   for (const auto& stripe : view.stripes) result.stripes.push_back(independent_points(stripe));
   result.stripes.resize(static_cast<std::size_t>(laser_planes));
@@ -39,8 +40,59 @@ int pose_index(std::vector<std::string>& poses, const std::string& pose) {
   return static_cast<int>(index);
 }
 
+bool same_points(const std::vector<StripePoint>& a, const std::vector<StripePoint>& b) {
+  return a.size() == b.size() && std::equal(a.begin(), a.end(), b.begin(), [](const auto& p, const auto& q) {
+           return p.x == q.x && p.y == q.y;
+         });
+}
+
+/// The same numbers to the last bit come from the same picture only: noise differs.
+bool same_corners(const SessionView& a, const SessionView& b) {
+  return std::equal(
+      a.corners.begin(), a.corners.end(), b.corners.begin(), b.corners.end(),
+      [](const Vector2d& p, const Vector2d& q) { return p == q || (!is_seen(p) && !is_seen(q)); });
+}
+
+/// A picture that was given twice would count twice. False: the view is of no use.
+bool seen_once(SessionViews& result, SessionView& added) {
+  for (const auto& other : result.views) {
+    if (other.sensor != added.sensor) continue;
+    if (same_corners(other, added)) {
+      result.left_out.push_back(
+          fmt::format("{}: left out, it is the same picture as {}", added.image, other.image));
+      return false;
+    }
+    for (std::size_t p = 0; p < added.stripes.size(); ++p) {
+      if (added.stripes[p].empty() || !same_points(added.stripes[p], other.stripes[p])) continue;
+      added.stripes[p].clear();
+      result.left_out.push_back(fmt::format(
+          "{}: stripe left out, its laser picture is the same as that of {}", added.image, other.image));
+    }
+  }
+  return true;
+}
+
+/// The board on the bed as a pose of its own, and the pictures of known heights over it.
+void add_bed(SessionViews& result, const SensorObservations& sensor, int index) {
+  auto board = measured(sensor.bed->board, index, result.target, sensor.laser_planes);
+  board.pose = pose_index(result.poses, "bed of " + sensor.name);
+  for (const auto& height : sensor.bed->heights) {
+    SessionView view;
+    view.sensor = index;
+    view.pose = board.pose;
+    view.image = height.image;
+    view.corners.assign(board.corners.size(), unseen_corner());
+    view.stripes.resize(static_cast<std::size_t>(sensor.laser_planes));
+    view.height_mm = height.height_mm;
+    view.lines = height.lines;
+    result.views.push_back(std::move(view));
+  }
+  result.views.push_back(std::move(board));
+}
+
 void add_sensor(SessionViews& result, const SensorObservations& sensor, int index) {
-  if (static_cast<int>(sensor.views.size()) < kMinViews)
+  const bool camera_is_known = sensor.given_camera && sensor.given_camera->fixed;
+  if (static_cast<int>(sensor.views.size()) < kMinViews && !(sensor.bed && camera_is_known))
     throw NotUsable(
         fmt::format("sensor {}: the board was found in {} images only; at least {} are needed, take 15 to 30 "
                     "with the board tilted by 20 to 45 degrees to different sides",
@@ -54,8 +106,9 @@ void add_sensor(SessionViews& result, const SensorObservations& sensor, int inde
     for (const auto& other : result.views)
       LIGHTSTRIPE_CHECK(other.sensor != index || other.pose != added.pose,
                         "two views of sensor " + sensor.name + " have the pose " + view.pose);
-    result.views.push_back(std::move(added));
+    if (seen_once(result, added)) result.views.push_back(std::move(added));
   }
+  if (sensor.bed) add_bed(result, sensor, index);
 }
 
 void add_motion(SessionViews& result, const MotionObservations& motion) {
@@ -84,8 +137,8 @@ int turned_index(const Target& target, int index, int quarter_turns) {
 
 /// The quarter turns that map the board onto itself.
 std::vector<int> quarter_turns(const Target& target) {
-  const bool square = target.type == TargetType::kCheckerboard && target.columns == target.rows &&
-                      target.pitch_x == target.pitch_y;
+  const bool turns = target.type == TargetType::kCheckerboard || target.type == TargetType::kCircles;
+  const bool square = turns && target.columns == target.rows && target.pitch_x == target.pitch_y;
   if (square) return {0, 1, 2, 3};
   if (target.half_turn_symmetric()) return {0, 2};
   return {0};

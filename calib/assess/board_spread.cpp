@@ -14,17 +14,15 @@ using Eigen::Vector3d;
 
 constexpr double kDegree = std::numbers::pi / 180;
 
-Vector2d pixel_of(const SessionViews& measurements, const Residual& m) {
-  const auto& point = measurements.views[m.view].stripes[static_cast<std::size_t>(m.plane)][m.index];
+Vector2d pixel_of(const SessionViews& session, const Residual& m) {
+  const auto& point = session.views[m.view].stripes[static_cast<std::size_t>(m.plane)][m.index];
   return {point.x, point.y};
 }
 
-}  // namespace
-
-double tilt_spread_deg(const SessionViews& measurements, const RigState& state, int sensor) {
+double tilt_spread_deg(const SessionViews& session, const RigState& state, int sensor) {
   std::vector<Vector3d> normals;
   Vector3d mean = Vector3d::Zero();
-  for (const auto& view : measurements.views) {
+  for (const auto& view : session.views) {
     if (view.sensor != sensor || view.pose < 0) continue;
     normals.emplace_back(state.first_from_board[static_cast<std::size_t>(view.pose)].rotation *
                          Vector3d::UnitZ());
@@ -36,11 +34,11 @@ double tilt_spread_deg(const SessionViews& measurements, const RigState& state, 
   return spread / kDegree;
 }
 
-std::vector<double> laser_angles_deg(const SessionViews& measurements, const RigState& state, int sensor,
+std::vector<double> laser_angles_deg(const SessionViews& session, const RigState& state, int sensor,
                                      std::size_t plane) {
   const auto& of = state.sensors[static_cast<std::size_t>(sensor)];
   std::vector<double> angles;
-  for (const auto& view : measurements.views) {
+  for (const auto& view : session.views) {
     if (view.sensor != sensor || view.pose < 0 || view.stripes[plane].empty()) continue;
     const Rigid3 cam_from_board =
         of.cam_from_first * state.first_from_board[static_cast<std::size_t>(view.pose)];
@@ -50,13 +48,13 @@ std::vector<double> laser_angles_deg(const SessionViews& measurements, const Rig
   return angles;
 }
 
-DepthRange stripe_depths(const SessionViews& measurements, const RigState& state,
-                         const std::vector<Residual>& list, int sensor) {
+DepthRange stripe_depths(const SessionViews& session, const RigState& state,
+                         const std::vector<Residual>& residuals, int sensor) {
   DepthRange range;
   const auto& of = state.sensors[static_cast<std::size_t>(sensor)];
-  for (const auto& m : list) {
-    if (m.is_corner() || !m.used || measurements.views[m.view].sensor != sensor) continue;
-    const auto ray = unproject(of.camera, pixel_of(measurements, m));
+  for (const auto& m : residuals) {
+    if (m.is_corner() || !m.used || session.views[m.view].sensor != sensor) continue;
+    const auto ray = unproject(of.camera, pixel_of(session, m));
     const auto p = ray ? intersect(of.laser_planes[static_cast<std::size_t>(m.plane)], Vector3d::Zero(), *ray)
                        : std::nullopt;
     if (!p) continue;
@@ -66,15 +64,35 @@ DepthRange stripe_depths(const SessionViews& measurements, const RigState& state
   return range;
 }
 
-double stripe_coverage(const SessionViews& measurements, const std::vector<Residual>& list, int sensor) {
+double stripe_coverage(const SessionViews& session, const std::vector<Residual>& residuals, int sensor) {
   Vector2d low(1e9, 1e9), high(-1e9, -1e9);
-  for (const auto& m : list) {
-    if (m.is_corner() || !m.used || measurements.views[m.view].sensor != sensor) continue;
-    low = low.cwiseMin(pixel_of(measurements, m));
-    high = high.cwiseMax(pixel_of(measurements, m));
+  for (const auto& m : residuals) {
+    if (m.is_corner() || !m.used || session.views[m.view].sensor != sensor) continue;
+    low = low.cwiseMin(pixel_of(session, m));
+    high = high.cwiseMax(pixel_of(session, m));
   }
-  const auto& size = measurements.image_sizes[static_cast<std::size_t>(sensor)];
+  const auto& size = session.image_sizes[static_cast<std::size_t>(sensor)];
   return (high - low).norm() / std::hypot(size[0], size[1]);
+}
+
+}  // namespace
+
+BoardSpread board_spread(const SessionViews& session, const JointAdjustment& adjustment, int sensor) {
+  BoardSpread spread;
+  spread.tilt_deg = tilt_spread_deg(session, adjustment.state, sensor);
+  const auto& planes = adjustment.state.sensors[static_cast<std::size_t>(sensor)].laser_planes;
+  for (std::size_t p = 0; p < planes.size(); ++p)
+    spread.laser_angles_deg.push_back(laser_angles_deg(session, adjustment.state, sensor, p));
+  spread.stripe_depths = stripe_depths(session, adjustment.state, adjustment.residuals, sensor);
+  spread.stripe_coverage = stripe_coverage(session, adjustment.residuals, sensor);
+  return spread;
+}
+
+std::vector<BoardSpread> board_spreads(const SessionViews& session, const JointAdjustment& adjustment) {
+  std::vector<BoardSpread> spreads;
+  for (std::size_t s = 0; s < session.sensor_names.size(); ++s)
+    spreads.push_back(board_spread(session, adjustment, static_cast<int>(s)));
+  return spreads;
 }
 
 }  // namespace lightstripe

@@ -43,12 +43,12 @@ std::string too_small(const SessionViews& half) {
 
 }  // namespace
 
-CrossValidation cross_validate(const SessionViews& measurements, const JointAdjustment& adjustment,
+CrossValidation cross_validate(const SessionViews& session, const JointAdjustment& adjustment,
                                const Eigen::Vector3d& up, const CalibrationOptions& options) {
   CrossValidation result;
-  const std::array<SessionViews, 2> halves{half_of(measurements, 0), half_of(measurements, 1)};
+  const std::array<SessionViews, 2> halves{half_of(session, 0), half_of(session, 1)};
   result.why_not = too_small(halves[0]).empty() ? too_small(halves[1]) : too_small(halves[0]);
-  const auto samples = section_samples(measurements, adjustment.measurements);
+  const auto samples = section_samples(session, adjustment.residuals);
   if (samples.size() < 3) result.why_not = "no stripes";
   if (!result.why_not.empty()) return result;
   std::array<JointAdjustment, 2> adjusted;
@@ -63,11 +63,11 @@ CrossValidation cross_validate(const SessionViews& measurements, const JointAdju
   }
   std::array<Eigen::VectorXd, 2> sections;
   for (std::size_t i = 0; i < 2; ++i)
-    sections[i] = section_of(adjusted[i].state, measurements.motion, up, samples);
+    sections[i] = section_of(adjusted[i].state, session.motion, up, samples);
   const auto without_rigid = without_rigid_motion(sections[0]);
   double variance = 0;
   for (const auto& half : adjusted) {
-    const Eigen::MatrixXd J = without_rigid * section_jacobian(measurements, half, up, samples);
+    const Eigen::MatrixXd J = without_rigid * section_jacobian(session, half, up, samples);
     variance += (J * half.covariance).cwiseProduct(J).sum() / static_cast<double>(samples.size());
   }
   result.done = true;

@@ -9,12 +9,11 @@
 
 namespace lightstripe {
 
-std::vector<ResidualSample> residual_samples(const SessionViews& measurements,
-                                             const JointAdjustment& adjustment) {
+std::vector<ResidualSample> residual_samples(const SessionViews& session, const JointAdjustment& adjustment) {
   std::vector<ResidualSample> samples;
-  samples.reserve(adjustment.measurements.size());
-  for (const auto& m : adjustment.measurements) {
-    const auto& view = measurements.views[m.view];
+  samples.reserve(adjustment.residuals.size());
+  for (const auto& m : adjustment.residuals) {
+    const auto& view = session.views[m.view];
     ResidualSample sample{static_cast<int>(m.view), m.is_corner(), m.used, {}, m.residual_px, m.normalised()};
     if (m.is_corner()) {
       sample.pixel = view.corners[m.index];
@@ -27,14 +26,14 @@ std::vector<ResidualSample> residual_samples(const SessionViews& measurements,
   return samples;
 }
 
-std::vector<double> corner_coverage(const SessionViews& measurements, const JointAdjustment& adjustment) {
+std::vector<double> corner_coverage(const SessionViews& session, const JointAdjustment& adjustment) {
   constexpr int kColumns = 8, kRows = 6;
-  std::vector<std::array<bool, kColumns * kRows>> hit(measurements.sensor_names.size());
-  for (const auto& m : adjustment.measurements) {
+  std::vector<std::array<bool, kColumns * kRows>> hit(session.sensor_names.size());
+  for (const auto& m : adjustment.residuals) {
     if (!m.is_corner() || !m.used) continue;
-    const auto s = static_cast<std::size_t>(measurements.views[m.view].sensor);
-    const auto& size = measurements.image_sizes[s];
-    const auto& q = measurements.views[m.view].corners[m.index];
+    const auto s = static_cast<std::size_t>(session.views[m.view].sensor);
+    const auto& size = session.image_sizes[s];
+    const auto& q = session.views[m.view].corners[m.index];
     const int x = std::clamp(static_cast<int>(kColumns * q.x() / size[0]), 0, kColumns - 1);
     const int y = std::clamp(static_cast<int>(kRows * q.y() / size[1]), 0, kRows - 1);
     hit[s][static_cast<std::size_t>(y * kColumns + x)] = true;
@@ -45,17 +44,18 @@ std::vector<double> corner_coverage(const SessionViews& measurements, const Join
   return shares;
 }
 
-CalibrationDiagnosis diagnose(const SessionViews& measurements, const JointAdjustment& adjustment,
-                              const Eigen::Vector3d& up, const CalibrationOptions& options) {
+CalibrationDiagnosis diagnose(const SessionViews& session, const JointAdjustment& adjustment,
+                              const std::vector<BoardSpread>& spreads, const Eigen::Vector3d& up,
+                              const CalibrationOptions& options) {
   CalibrationDiagnosis result;
-  result.residuals = residual_samples(measurements, adjustment);
-  result.map = uncertainty_map(measurements, adjustment, up, options.range_near_mm, options.range_far_mm);
-  result.cross_validation = cross_validate(measurements, adjustment, up, options);
-  result.weakest = weakest_direction(measurements, adjustment, up);
-  result.corner_coverage = corner_coverage(measurements, adjustment);
-  const Rigid3 rig = rig_from_first(adjustment.state, measurements.motion, up);
+  result.residuals = residual_samples(session, adjustment);
+  result.map = uncertainty_map(session, adjustment, spreads, up, options.range_near_mm, options.range_far_mm);
+  result.cross_validation = cross_validate(session, adjustment, up, options);
+  result.weakest = weakest_direction(session, adjustment, spreads, up);
+  result.corner_coverage = corner_coverage(session, adjustment);
+  const Rigid3 rig = rig_from_first(adjustment.state, session.motion, up);
   for (const auto& pose : adjustment.state.first_from_board) result.rig_from_board.push_back(rig * pose);
-  result.pose_names = measurements.poses;
+  result.pose_names = session.poses;
   return result;
 }
 

@@ -93,12 +93,12 @@ double axis_sigma_mm(const JointAdjustment& adjustment) {
 
 }  // namespace
 
-std::map<std::string, double> parameter_sigmas(const SessionViews& measurements,
+std::map<std::string, double> parameter_sigmas(const SessionViews& session,
                                                const JointAdjustment& adjustment) {
   using Kind = GlobalBlock::Kind;
   std::map<std::string, double> sigmas;
   for (const auto& block : adjustment.globals) {
-    const auto& sensor = measurements.sensor_names[static_cast<std::size_t>(block.sensor)];
+    const auto& sensor = session.sensor_names[static_cast<std::size_t>(block.sensor)];
     if (block.kind == Kind::kIntrinsics) add_intrinsics(adjustment, block, sensor, sigmas);
     if (block.kind == Kind::kLaserPlane) add_plane(adjustment, block, sensor, sigmas);
     if (block.kind == Kind::kCamFromFirst) add_pose(adjustment, block, sensor, sigmas);
@@ -114,16 +114,14 @@ std::map<std::string, double> parameter_sigmas(const SessionViews& measurements,
   return sigmas;
 }
 
-std::vector<SectionSample> section_samples(const SessionViews& measurements,
-                                           const std::vector<Residual>& list) {
+std::vector<SectionSample> section_samples(const SessionViews& session, const std::vector<Residual>& list) {
   constexpr std::size_t kMaxSamples = 150;
   std::map<std::pair<int, int>, std::vector<SectionSample>> by_plane;
-  for (const auto& measurement : list) {
-    if (measurement.is_corner() || !measurement.used) continue;
-    const auto& view = measurements.views[measurement.view];
-    const auto& point = view.stripes[static_cast<std::size_t>(measurement.plane)][measurement.index];
-    by_plane[{view.sensor, measurement.plane}].push_back(
-        {view.sensor, measurement.plane, {point.x, point.y}});
+  for (const auto& residual : list) {
+    if (residual.is_corner() || !residual.used) continue;
+    const auto& view = session.views[residual.view];
+    const auto& point = view.stripes[static_cast<std::size_t>(residual.plane)][residual.index];
+    by_plane[{view.sensor, residual.plane}].push_back({view.sensor, residual.plane, {point.x, point.y}});
   }
   std::vector<SectionSample> samples;
   for (const auto& [plane, all] : by_plane) {
@@ -149,10 +147,10 @@ VectorXd section_of(const RigState& state, MotionType motion, const Eigen::Vecto
   return section;
 }
 
-MatrixXd section_jacobian(const SessionViews& measurements, const JointAdjustment& adjustment,
+MatrixXd section_jacobian(const SessionViews& session, const JointAdjustment& adjustment,
                           const Eigen::Vector3d& up, const std::vector<SectionSample>& samples) {
-  return derivative(
-      adjustment, [&](const RigState& state) { return section_of(state, measurements.motion, up, samples); });
+  return derivative(adjustment,
+                    [&](const RigState& state) { return section_of(state, session.motion, up, samples); });
 }
 
 MatrixXd without_rigid_motion(const VectorXd& section) {
@@ -168,13 +166,12 @@ MatrixXd without_rigid_motion(const VectorXd& section) {
   return MatrixXd::Identity(2 * n, 2 * n) - basis * basis.transpose();
 }
 
-SectionUncertainty section_uncertainty(const SessionViews& measurements, const JointAdjustment& adjustment,
+SectionUncertainty section_uncertainty(const SessionViews& session, const JointAdjustment& adjustment,
                                        const Eigen::Vector3d& up) {
-  const auto samples = section_samples(measurements, adjustment.measurements);
+  const auto samples = section_samples(session, adjustment.residuals);
   if (samples.size() < 3) return {};
-  const MatrixXd J = section_jacobian(measurements, adjustment, up, samples);
-  const MatrixXd shape =
-      without_rigid_motion(section_of(adjustment.state, measurements.motion, up, samples)) * J;
+  const MatrixXd J = section_jacobian(session, adjustment, up, samples);
+  const MatrixXd shape = without_rigid_motion(section_of(adjustment.state, session.motion, up, samples)) * J;
   const auto rms = [&](const MatrixXd& of) {
     return std::sqrt((of * adjustment.covariance).cwiseProduct(of).sum() /
                      static_cast<double>(samples.size()));

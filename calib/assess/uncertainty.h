@@ -16,7 +16,7 @@ namespace lightstripe {
 /// ".offset_mm" (camera frame), "field.pose.rotation_deg" and ".translation_mm" (in the first sensor's
 /// frame), "board.warp_x_mm", "motion.direction_deg", "motion.axis_point_mm". Directions, rotations and
 /// points: root of the summed variances of their components.
-std::map<std::string, double> parameter_sigmas(const SessionViews& measurements,
+std::map<std::string, double> parameter_sigmas(const SessionViews& session,
                                                const JointAdjustment& adjustment);
 
 /// Errors of the points (y, z of the rig frame) where the calibration saw stripes, over all sensors together:
@@ -26,7 +26,7 @@ struct SectionUncertainty {
   double shape_mm = 0;  ///< after the best rigid move in the section plane
 };
 
-SectionUncertainty section_uncertainty(const SessionViews& measurements, const JointAdjustment& adjustment,
+SectionUncertainty section_uncertainty(const SessionViews& session, const JointAdjustment& adjustment,
                                        const Eigen::Vector3d& up);
 
 /// The pixels for which section_uncertainty stands: the used stripe points, at most 150 a laser plane.
@@ -34,15 +34,14 @@ struct SectionSample {
   int sensor = 0, plane = 0;
   Eigen::Vector2d pixel;
 };
-std::vector<SectionSample> section_samples(const SessionViews& measurements,
-                                           const std::vector<Residual>& list);
+std::vector<SectionSample> section_samples(const SessionViews& session, const std::vector<Residual>& list);
 
 /// (y, z) in the rig frame of every sample, one after the other; a ray that misses the plane gives (0, 0).
 Eigen::VectorXd section_of(const RigState& state, MotionType motion, const Eigen::Vector3d& up,
                            const std::vector<SectionSample>& samples);
 
 /// d section_of / d(shared unknowns of the covariance), 2n x m.
-Eigen::MatrixXd section_jacobian(const SessionViews& measurements, const JointAdjustment& adjustment,
+Eigen::MatrixXd section_jacobian(const SessionViews& session, const JointAdjustment& adjustment,
                                  const Eigen::Vector3d& up, const std::vector<SectionSample>& samples);
 
 /// Orthogonal projector that takes the rigid motions of the section's points (two shifts, one turn) out of a

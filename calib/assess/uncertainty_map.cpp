@@ -33,11 +33,11 @@ double distance_to_nearest(const std::vector<Vector2d>& pixels, const Vector2d& 
 }
 
 /// The image's grid cells whose points of the laser plane lie in the range.
-void add_cells(const SessionViews& measurements, const RigState& state, int sensor, int plane,
+void add_cells(const SessionViews& session, const RigState& state, int sensor, int plane,
                const DepthRange& range, const std::vector<Vector2d>& stripe,
                std::vector<UncertaintyCell>& cells) {
   const auto& of = state.sensors[static_cast<std::size_t>(sensor)];
-  const auto& size = measurements.image_sizes[static_cast<std::size_t>(sensor)];
+  const auto& size = session.image_sizes[static_cast<std::size_t>(sensor)];
   const double diagonal = std::hypot(size[0], size[1]);
   for (int row = 0; row < kRows; ++row) {
     for (int column = 0; column < kColumns; ++column) {
@@ -57,11 +57,10 @@ void add_cells(const SessionViews& measurements, const RigState& state, int sens
   }
 }
 
-DepthRange range_of(const SessionViews& measurements, const JointAdjustment& adjustment, int sensor,
-                    double near_mm, double far_mm) {
+DepthRange range_of(const BoardSpread& spread, double near_mm, double far_mm) {
   constexpr double kBeyond = 0.1;  // of the depths seen
   if (far_mm > near_mm) return {near_mm, far_mm};
-  DepthRange seen = stripe_depths(measurements, adjustment.state, adjustment.measurements, sensor);
+  const DepthRange& seen = spread.stripe_depths;
   const double margin = kBeyond * (seen.far_mm - seen.near_mm);
   return {seen.near_mm - margin, seen.far_mm + margin};
 }
@@ -80,27 +79,27 @@ MatrixXd after_rigid_move(const std::vector<UncertaintyCell>& cells, const Matri
 
 }  // namespace
 
-std::vector<UncertaintyCell> uncertainty_map(const SessionViews& measurements,
-                                             const JointAdjustment& adjustment, const Eigen::Vector3d& up,
-                                             double near_mm, double far_mm) {
-  const auto stripes = section_samples(measurements, adjustment.measurements);
+std::vector<UncertaintyCell> uncertainty_map(const SessionViews& session, const JointAdjustment& adjustment,
+                                             const std::vector<BoardSpread>& spreads,
+                                             const Eigen::Vector3d& up, double near_mm, double far_mm) {
+  const auto stripes = section_samples(session, adjustment.residuals);
   std::vector<UncertaintyCell> cells;
   for (std::size_t s = 0; s < adjustment.state.sensors.size(); ++s) {
     const int sensor = static_cast<int>(s);
-    const DepthRange range = range_of(measurements, adjustment, sensor, near_mm, far_mm);
+    const DepthRange range = range_of(spreads[s], near_mm, far_mm);
     for (std::size_t p = 0; p < adjustment.state.sensors[s].laser_planes.size(); ++p) {
       const int plane = static_cast<int>(p);
-      add_cells(measurements, adjustment.state, sensor, plane, range, stripe_pixels(stripes, sensor, plane),
+      add_cells(session, adjustment.state, sensor, plane, range, stripe_pixels(stripes, sensor, plane),
                 cells);
     }
   }
   std::vector<SectionSample> samples;
   for (const auto& cell : cells) samples.push_back({cell.sensor, cell.plane, cell.pixel});
   if (samples.empty()) return cells;
-  const Eigen::VectorXd section = section_of(adjustment.state, measurements.motion, up, samples);
+  const Eigen::VectorXd section = section_of(adjustment.state, session.motion, up, samples);
   for (std::size_t i = 0; i < cells.size(); ++i)
     cells[i].section_mm = section.segment<2>(2 * static_cast<Eigen::Index>(i));
-  const MatrixXd J = section_jacobian(measurements, adjustment, up, samples);
+  const MatrixXd J = section_jacobian(session, adjustment, up, samples);
   const MatrixXd shape = after_rigid_move(cells, J);
   const auto sigma = [&](const MatrixXd& of, std::size_t i) {
     const MatrixXd rows = of.middleRows<2>(2 * static_cast<Eigen::Index>(i));

@@ -62,7 +62,7 @@ std::vector<Part> parts_of(const VectorXd& section, const VectorXd& displacement
 }
 
 /// What the views lack most, of the sensor that lacks it most.
-std::string advice(const SessionViews& measurements, const JointAdjustment& adjustment) {
+std::string advice(const SessionViews& session, const std::vector<BoardSpread>& spreads) {
   constexpr double kEnoughTiltDeg = 25;
   constexpr double kEnoughDepth = 0.1;  // of the distance
   constexpr double kEnoughCoverage = 0.5;
@@ -73,20 +73,21 @@ std::string advice(const SessionViews& measurements, const JointAdjustment& adju
     least = share;
     text = words;
   };
-  for (std::size_t s = 0; s < measurements.sensor_names.size(); ++s) {
-    const auto& name = measurements.sensor_names[s];
-    const int sensor = static_cast<int>(s);
-    const double tilt = tilt_spread_deg(measurements, adjustment.state, sensor);
+  for (std::size_t s = 0; s < session.sensor_names.size(); ++s) {
+    const auto& name = session.sensor_names[s];
+    const double tilt = spreads[s].tilt_deg;
+    const auto& given = session.given_cameras[s];
     consider(
-        tilt / kEnoughTiltDeg,
+        given && given->fixed ? 1.0 : tilt / kEnoughTiltDeg,
         fmt::format("sensor {}: boards tilted by {:.0f} degrees at most; tilt them by 20 to 45", name, tilt));
-    const auto depth = stripe_depths(measurements, adjustment.state, adjustment.measurements, sensor);
+    if (spreads[s].laser_angles_deg.empty()) continue;
+    const DepthRange& depth = spreads[s].stripe_depths;
     consider(
         (depth.far_mm - depth.near_mm) / std::max(1.0, kEnoughDepth * depth.far_mm),
         fmt::format("sensor {}: stripes between {:.0f} and {:.0f} mm of depth only; hold boards nearer and "
                     "farther",
                     name, depth.near_mm, depth.far_mm));
-    const double coverage = stripe_coverage(measurements, adjustment.measurements, sensor);
+    const double coverage = spreads[s].stripe_coverage;
     consider(
         coverage / kEnoughCoverage,
         fmt::format("sensor {}: stripes in {:.0f} % of the image's diagonal only; bring boards to all of the "
@@ -101,22 +102,22 @@ std::string advice(const SessionViews& measurements, const JointAdjustment& adju
 
 }  // namespace
 
-std::string weakest_direction(const SessionViews& measurements, const JointAdjustment& adjustment,
-                              const Eigen::Vector3d& up) {
-  const auto samples = section_samples(measurements, adjustment.measurements);
+std::string weakest_direction(const SessionViews& session, const JointAdjustment& adjustment,
+                              const std::vector<BoardSpread>& spreads, const Eigen::Vector3d& up) {
+  const auto samples = section_samples(session, adjustment.residuals);
   if (samples.size() < 3) return {};
-  const VectorXd section = section_of(adjustment.state, measurements.motion, up, samples);
+  const VectorXd section = section_of(adjustment.state, session.motion, up, samples);
   const MatrixXd L = adjustment.covariance.llt().matrixL();
-  const MatrixXd A = section_jacobian(measurements, adjustment, up, samples) * L;
+  const MatrixXd A = section_jacobian(session, adjustment, up, samples) * L;
   const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(A.transpose() * A);
   const VectorXd displacement = A * eigen.eigenvectors().rightCols<1>();
-  const Rigid3 rig = rig_from_first(adjustment.state, measurements.motion, up);
+  const Rigid3 rig = rig_from_first(adjustment.state, session.motion, up);
   const Vector2d towards = (rig.rotation * Eigen::Vector3d::UnitZ()).tail<2>();
   const Vector2d range = towards.norm() > 0.1 ? Vector2d(towards.normalized()) : Vector2d::UnitY();
   const auto parts = parts_of(section, displacement, range);
   const auto largest = std::max_element(
       parts.begin(), parts.end(), [](const Part& a, const Part& b) { return a.amount_mm < b.amount_mm; });
-  return largest->words + " (1 sigma); " + advice(measurements, adjustment);
+  return largest->words + " (1 sigma); " + advice(session, spreads);
 }
 
 }  // namespace lightstripe

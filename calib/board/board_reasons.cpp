@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <opencv2/features2d.hpp>
 #include <opencv2/imgproc.hpp>
 
 namespace lightstripe {
@@ -84,21 +85,67 @@ double edge_width_px(const cv::Mat& gray) {
   return 2.56 * std::sqrt(std::max(0.0, s * s - 1.0));
 }
 
-std::string why_not_found(const cv::Mat& gray, const Target& target, const std::vector<CornerGrid>& grids) {
+namespace {
+
+/// Round blobs of one size, dark on light: the discs of a circle grid.
+int round_blobs(const cv::Mat& gray) {
+  cv::SimpleBlobDetector::Params params;
+  params.filterByCircularity = true;
+  params.minCircularity = 0.75F;
+  params.minArea = 30;
+  params.maxArea = static_cast<float>(gray.total()) / 40;
+  params.thresholdStep = 40;
+  std::vector<cv::KeyPoint> blobs;
+  cv::SimpleBlobDetector::create(params)->detect(gray, blobs);
+  std::vector<float> sizes;
+  for (const auto& blob : blobs) sizes.push_back(blob.size);
+  if (sizes.empty()) return 0;
+  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
+  std::nth_element(sizes.begin(), middle, sizes.end());
+  const float median = *middle;
+  return static_cast<int>(std::count_if(
+      sizes.begin(), sizes.end(), [&](float size) { return std::abs(size - median) < 0.25F * median; }));
+}
+
+/// A picture that shows nothing at all; empty where it shows something.
+std::string about_light(const cv::Mat& gray) {
   constexpr int kDark = 35, kFlat = 25;  // grey levels
-  constexpr double kBlurredPx = 8;
   const int light = grey_percentile(gray, 0.98), dark = grey_percentile(gray, 0.02);
   if (light < kDark)
     return fmt::format("too dark: nearly all pixels are below grey level {}; more light or exposure",
                        light + 1);
   if (light - dark < kFlat) return fmt::format("no contrast: grey levels {} to {} only", dark, light);
+  return "";
+}
+
+std::string about_focus(const cv::Mat& gray) {
+  constexpr double kBlurredPx = 8;
+  const double edge = edge_width_px(gray);
+  if (edge <= kBlurredPx) return "";
+  return fmt::format("blurred: edges are {:.0f} px wide; focus, or hold the board still", edge);
+}
+
+}  // namespace
+
+std::string why_not_found(const cv::Mat& gray, const Target& target, const std::vector<CornerGrid>& grids) {
+  constexpr int kGridOfCircles = 16;
+  if (auto reason = about_light(gray); !reason.empty()) return reason;
   const bool seen = !grids.empty() && grids.front().count() >= std::min(12, target.num_corners() / 2);
   if (seen) return about_grid(grids.front(), gray, target);
-  const double edge = edge_width_px(gray);
-  if (edge > kBlurredPx)
-    return fmt::format("blurred: edges are {:.0f} px wide; focus, or hold the board still", edge);
+  if (auto reason = about_focus(gray); !reason.empty()) return reason;
+  if (round_blobs(gray) >= kGridOfCircles)
+    return "this looks like a circle grid; say target: {type: circles, grid: [columns, rows], pitch: mm}";
+  if (target.type == TargetType::kAprilgrid) return "no tag of the family 36h11 in view";
   return fmt::format("no board of {} x {} inner corners in view (hidden, cut off, or too steep)",
                      target.columns, target.rows);
+}
+
+std::string why_no_circles(const cv::Mat& gray, const Target& target) {
+  if (auto reason = about_light(gray); !reason.empty()) return reason;
+  if (auto reason = about_focus(gray); !reason.empty()) return reason;
+  const int seen = round_blobs(gray);
+  return fmt::format("no grid of {} x {} circles in view ({} round blobs of one size are seen)",
+                     target.columns, target.rows, seen);
 }
 
 }  // namespace lightstripe

@@ -16,6 +16,9 @@ namespace lightstripe {
 /// edge's width), or simply not found. `grids`: what was seen instead.
 std::string why_not_found(const cv::Mat& gray, const Target& target, const std::vector<CornerGrid>& grids);
 
+/// The same for a grid of circles.
+std::string why_no_circles(const cv::Mat& gray, const Target& target);
+
 /// Distance from 10 to 90 % of a dark-light edge, px, by the steepest edges of the picture.
 double edge_width_px(const cv::Mat& gray);
 

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The lightstripe authors
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
@@ -10,6 +11,7 @@
 #include "calib/board/board_reasons.h"
 #include "calib/board/corner_grid.h"
 #include "calib/board/detect_charuco.h"
+#include "calib/board/detect_circles.h"
 #include "calib/board/observe_board.h"
 #include "core/error.h"
 
@@ -187,11 +189,92 @@ Corners enlarged(Corners corners, int factor) {
   return corners;
 }
 
+/// Whether the squares go on beyond one of the corners' sides: then they are a part of a larger board.
+bool goes_on(const Corners& corners, const Target& target, const std::vector<SaddleCorner>& saddles) {
+  constexpr double kNear = 0.2, kMost = 0.7;  // of the step; of the side's corners
+  const auto at = [&](int x, int y) { return corners[static_cast<std::size_t>(y * target.columns + x)]; };
+  const auto is_saddle = [&](const Vector2d& place, double within) {
+    return std::any_of(saddles.begin(), saddles.end(),
+                       [&](const SaddleCorner& s) { return (s.position - place).norm() < within; });
+  };
+  const int c = target.columns, r = target.rows;
+  std::array<int, 4> hits{};
+  const auto look = [&](std::size_t side, const Vector2d& edge, const Vector2d& inner) {
+    hits[side] += is_saddle(2 * edge - inner, kNear * (edge - inner).norm());
+  };
+  for (int x = 0; x < c; ++x) look(0, at(x, 0), at(x, 1)), look(1, at(x, r - 1), at(x, r - 2));
+  for (int y = 0; y < r; ++y) look(2, at(0, y), at(1, y)), look(3, at(c - 1, y), at(c - 2, y));
+  return hits[0] > kMost * c || hits[1] > kMost * c || hits[2] > kMost * r || hits[3] > kMost * r;
+}
+
+/// What a search at one size of the picture gave.
+struct Located {
+  std::optional<Corners> corners;  ///< of the full picture
+  std::vector<SaddleCorner> saddles;
+  std::vector<CornerGrid> grids;  ///< of the shrunk picture
+};
+
+Located search_by_links(const cv::Mat& gray, int factor, const Target& target) {
+  Located result;
+  result.saddles = find_saddle_corners(shrunk(gray, factor));
+  result.grids = link_corners(result.saddles);
+  if (auto corners = locate_by_links(result.grids, target))
+    result.corners = enlarged(std::move(*corners), factor);
+  return result;
+}
+
+/// cv::findChessboardCornersSB takes six times as long and is surer where squares are unclear: worth it only
+/// where about half of the board's corners were linked.
+bool worth_a_closer_look(const Located& located, const Target& target) {
+  return !located.grids.empty() && 5 * located.grids.front().count() >= 2 * target.num_corners();
+}
+
+/// At the working size, at half of it (blurred pictures), and by OpenCV.
+Located locate(const cv::Mat& gray, int factor, const Target& target) {
+  constexpr int kMinSidePx = 240;  // of a picture that is searched at half size too
+  Located result = search_by_links(gray, factor, target);
+  if (result.corners) return result;
+  Located coarse;
+  if (std::min(gray.cols, gray.rows) / factor >= kMinSidePx) {
+    coarse = search_by_links(gray, 2 * factor, target);
+    if (coarse.corners && !goes_on(*coarse.corners, target, result.saddles)) {
+      result.corners = std::move(coarse.corners);
+      return result;
+    }
+  }
+  if (!worth_a_closer_look(result, target) && !worth_a_closer_look(coarse, target)) return result;
+  auto by_opencv = locate_by_opencv(shrunk(gray, factor), target);
+  if (by_opencv && !goes_on(*by_opencv, target, result.saddles))
+    result.corners = enlarged(std::move(*by_opencv), factor);
+  return result;
+}
+
+BoardDetection detect_checkerboard(const cv::Mat& gray, const Target& target) {
+  int factor = 1;
+  while (std::max(gray.cols, gray.rows) / factor > kMaxSearchSizePx) factor *= 2;
+  const Located located = locate(gray, factor, target);
+  BoardDetection result;
+  if (located.corners) {
+    const Corners corners = refined(gray, *located.corners, target);
+    result.found = in_view(gray, corners) && misfit(corners, target) < kMaxMisfit;
+    if (result.found) result.corners = in_unique_order(gray, corners, target);
+  }
+  if (result.found) return result;
+  result.reason = why_not_found(shrunk(gray, factor), target, located.grids);
+  result.board_like = !located.grids.empty();
+  if (result.board_like) {
+    const auto& seen = located.grids.front();
+    const bool turned = (seen.columns < seen.rows) != (target.columns < target.rows);
+    result.seen_columns = turned ? seen.rows : seen.columns;
+    result.seen_rows = turned ? seen.columns : seen.rows;
+  }
+  return result;
+}
+
 }  // namespace
 
 BoardDetection detect_board(ImageView8 image, const Target& target) {
-  LIGHTSTRIPE_CHECK(target.columns >= 3 && target.rows >= 3,
-                    "a checkerboard needs at least 3 x 3 inner corners");
+  LIGHTSTRIPE_CHECK(target.columns >= 3 && target.rows >= 3, "a board needs at least 3 x 3 corners");
   BoardDetection result;
   if (image.empty()) {
     result.reason = "the image is empty";
@@ -200,19 +283,9 @@ BoardDetection detect_board(ImageView8 image, const Target& target) {
   const cv::Mat gray(image.height, image.width, CV_8UC1, const_cast<std::uint8_t*>(image.data),
                      static_cast<std::size_t>(image.stride));
   if (target.type == TargetType::kCharuco) return detect_charuco(gray, target);
-  int factor = 1;
-  while (std::max(gray.cols, gray.rows) / factor > kMaxSearchSizePx) factor *= 2;
-  const cv::Mat small = shrunk(gray, factor);
-  const auto grids = link_corners(find_saddle_corners(small));
-  auto located = locate_by_links(grids, target);
-  if (!located) located = locate_by_opencv(small, target);  // six times slower, surer in blurred pictures
-  if (located) {
-    const Corners corners = refined(gray, enlarged(*located, factor), target);
-    result.found = in_view(gray, corners) && misfit(corners, target) < kMaxMisfit;
-    if (result.found) result.corners = in_unique_order(gray, corners, target);
-  }
-  if (!result.found) result.reason = why_not_found(small, target, grids);
-  return result;
+  if (target.type == TargetType::kAprilgrid) return detect_aprilgrid(gray, target);
+  if (target.has_circles()) return detect_circles(gray, target);
+  return detect_checkerboard(gray, target);
 }
 
 BoardDetection detect_board(std::span<const ImageView8> candidates, const Target& target) {

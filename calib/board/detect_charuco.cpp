@@ -11,6 +11,7 @@
 #include <opencv2/aruco/charuco.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "calib/board/aruco_dictionary.h"
 #include "calib/board/board_reasons.h"
 #include "calib/observations.h"
 #include "core/error.h"
@@ -22,32 +23,6 @@ using Eigen::Vector2d;
 
 constexpr int kMinCorners = 8;
 constexpr double kRefineWindow = 0.8;  // half the window, as a share of the gap between corner and markers
-
-constexpr std::array<std::pair<std::string_view, int>, 17> kDictionaries{
-    {{"DICT_4X4_50", cv::aruco::DICT_4X4_50},
-     {"DICT_4X4_100", cv::aruco::DICT_4X4_100},
-     {"DICT_4X4_250", cv::aruco::DICT_4X4_250},
-     {"DICT_4X4_1000", cv::aruco::DICT_4X4_1000},
-     {"DICT_5X5_50", cv::aruco::DICT_5X5_50},
-     {"DICT_5X5_100", cv::aruco::DICT_5X5_100},
-     {"DICT_5X5_250", cv::aruco::DICT_5X5_250},
-     {"DICT_5X5_1000", cv::aruco::DICT_5X5_1000},
-     {"DICT_6X6_50", cv::aruco::DICT_6X6_50},
-     {"DICT_6X6_100", cv::aruco::DICT_6X6_100},
-     {"DICT_6X6_250", cv::aruco::DICT_6X6_250},
-     {"DICT_6X6_1000", cv::aruco::DICT_6X6_1000},
-     {"DICT_7X7_50", cv::aruco::DICT_7X7_50},
-     {"DICT_7X7_100", cv::aruco::DICT_7X7_100},
-     {"DICT_7X7_250", cv::aruco::DICT_7X7_250},
-     {"DICT_7X7_1000", cv::aruco::DICT_7X7_1000},
-     {"DICT_ARUCO_ORIGINAL", cv::aruco::DICT_ARUCO_ORIGINAL}}};
-
-cv::Ptr<cv::aruco::Dictionary> dictionary_of(const Target& target) {
-  for (const auto& [name, number] : kDictionaries)
-    if (name == target.dictionary) return cv::aruco::getPredefinedDictionary(number);
-  throw Error("target.dictionary", target.dictionary + " is no dictionary of OpenCV",
-              "give its name, for example DICT_5X5_100");
-}
 
 bool on_one_line(const std::vector<Vector2d>& corners, const Target& target) {
   Vector2d mean = Vector2d::Zero();
@@ -99,7 +74,7 @@ void refine(const cv::Mat& gray, const Target& target, std::vector<Vector2d>& co
 }  // namespace
 
 BoardDetection detect_charuco(const cv::Mat& gray, const Target& target) {
-  const auto dictionary = dictionary_of(target);
+  const auto dictionary = aruco_dictionary(target.dictionary);
   const auto board =
       cv::aruco::CharucoBoard::create(target.columns + 1, target.rows + 1, static_cast<float>(target.pitch_x),
                                       static_cast<float>(target.marker_mm), dictionary);

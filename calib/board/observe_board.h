@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The lightstripe authors
 // SPDX-License-Identifier: Apache-2.0
-// Images -> observations: checkerboard corners and the stripe's points on the board.
+// Images -> observations: a board's corners and the stripe's points on it.
 #pragma once
 
 #include <Eigen/Core>
@@ -19,8 +19,11 @@ struct BoardDetection {
   bool found = false;
   std::string reason;  ///< why not, in words a person can act on
   std::vector<Eigen::Vector2d>
-      corners;            ///< px, in the order of Target::corner, handedness and colours checked
-  std::size_t image = 0;  ///< which of the candidate images showed it
+      corners;              ///< px, in the order of Target::corner, handedness and colours checked
+  std::size_t image = 0;    ///< which of the candidate images showed it
+  bool board_like = false;  ///< not found, but something like it is in view
+  int seen_columns = 0, seen_rows = 0;  ///< not found: size of the largest grid of squares in view
+  double circle_mm = 0;                 ///< circles: their diameter as seen
 };
 
 /// The board's corners to a few hundredths of a pixel: located by linking saddle points to grids, or where

@@ -9,8 +9,11 @@
 #include <optional>
 
 #include "calib/adjust/session_views.h"
+#include "calib/board/board_edges.h"
 #include "calib/board/board_map.h"
+#include "calib/board/board_shift.h"
 #include "calib/board/laser_light.h"
+#include "calib/board/laser_look.h"
 #include "calib/board/observe_board.h"
 #include "calib/start/stripe_planes.h"
 #include "core/error.h"
@@ -36,13 +39,6 @@ struct Placed {
   double mm_per_px;  ///< across the stripe, on the board
 };
 
-/// Distance to the nearest grid line of one coordinate, in units of the coordinate; outer edges of the
-/// squares count.
-double to_grid_line(double value, double pitch, int corners) {
-  const double line = std::clamp(std::round(value / pitch), -1.0, static_cast<double>(corners));
-  return std::abs(value - line * pitch);
-}
-
 /// How near (px) an edge may come. Where the albedo is seen through a Gaussian of deviation b, a step of it
 /// at distance D shifts the stripe's centre by about b^2 |component of its logarithmic gradient across the
 /// stripe| = b ln(ratio) / sqrt(2 pi) |cos| exp(-D^2 / 2 b^2), largest for edges along the stripe and nothing
@@ -60,23 +56,12 @@ bool near_edge(const StripePoint& point, const Vector2d& p_board, const Eigen::M
   const double window_px = point.width / (2 * std::sqrt(3.0)) / std::sqrt(2.0);
   const double blur_px = std::hypot(window_px, kLensBlurPx);
   const Vector2d normal(point.normal_x, point.normal_y);
-  const double distance[2] = {to_grid_line(p_board.x(), target.pitch_x, target.columns),
-                              to_grid_line(p_board.y(), target.pitch_y, target.rows)};
-  for (int i = 0; i < 2; ++i) {
-    const Vector2d gradient =
-        board_by_pixel.row(i).transpose();  // across the grid lines of this coordinate, mm / px
+  const auto edges = nearest_edges(target, p_board);
+  return std::any_of(edges.begin(), edges.end(), [&](const PrintEdge& edge) {
+    const Vector2d gradient = board_by_pixel.transpose() * edge.across;  // mm across the edge / px
     const double cosine = std::abs(gradient.dot(normal)) / gradient.norm();
-    if (distance[i] / gradient.norm() < margin_px(blur_px, cosine)) return true;
-  }
-  return false;
-}
-
-/// In a ChArUco board's white squares the markers' edges shift the stripe's centre; the dark squares are
-/// plain.
-bool on_marker_square(const Vector2d& p_board, const Target& target) {
-  const auto column = static_cast<long>(std::floor(p_board.x() / target.pitch_x)),
-             row = static_cast<long>(std::floor(p_board.y() / target.pitch_y));
-  return target.type == TargetType::kCharuco && (column + row) % 2 != 0;
+    return edge.distance_mm / gradient.norm() < margin_px(blur_px, cosine);
+  });
 }
 
 std::vector<Placed> on_board(const std::vector<Stripe>& stripes, const BoardMap& map, const Target& target) {
@@ -85,9 +70,7 @@ std::vector<Placed> on_board(const std::vector<Stripe>& stripes, const BoardMap&
     for (const auto& point : stripe.points) {
       if (point.flags & kStripeBridged) continue;
       const Vector2d pixel(point.x, point.y), p = map(pixel);
-      const bool inside = p.x() > -target.pitch_x && p.x() < target.columns * target.pitch_x &&
-                          p.y() > -target.pitch_y && p.y() < target.rows * target.pitch_y;
-      if (!inside || on_marker_square(p, target)) continue;
+      if (!carries_stripes(target, p)) continue;
       const Eigen::Matrix2d J = map.derivative(pixel);
       placed.push_back({point, p, (J * Vector2d(point.normal_x, point.normal_y)).norm()});
     }
@@ -184,6 +167,31 @@ void order_lines(std::vector<std::vector<StripePoint>>& lines) {
   });
 }
 
+/// What is there instead of a line on the board.
+std::string why_no_line(const std::vector<Stripe>& stripes, const std::vector<Placed>& points,
+                        const BoardMap& map, const Target& target) {
+  if (!points.empty())
+    return fmt::format("no straight stripe on the board ({} bright points on it)", points.size());
+  std::size_t anywhere = 0, near = 0;
+  for (const auto& stripe : stripes) {
+    anywhere += stripe.points.size();
+    for (const auto& point : stripe.points) {
+      const Vector2d p = map({point.x, point.y}) - target.middle();
+      near += std::abs(p.x()) < target.extent().x() && std::abs(p.y()) < target.extent().y();
+    }
+  }
+  if (anywhere == 0) return "no light on the board; is the laser on in this picture, and bright enough?";
+  if (near >= kMinPoints)
+    return fmt::format(
+        "no light on the board: the line runs beside its squares ({} points); hold the board "
+        "into the laser, or give target.rim_mm where a broader rim lies in the board's plane",
+        near);
+  return fmt::format(
+      "no light on the board; the picture's line ({} points) is elsewhere: hold the board into "
+      "the laser",
+      anywhere);
+}
+
 }  // namespace
 
 StripeOnBoard select_stripes(const std::vector<Stripe>& stripes, const std::vector<Vector2d>& corners,
@@ -200,11 +208,8 @@ StripeOnBoard select_stripes(const std::vector<Stripe>& stripes, const std::vect
   for (int i = 0; i < laser_planes; ++i) {
     const auto chosen = best_line(points);
     if (chosen.empty()) {
-      result.reason =
-          i > 0 ? fmt::format("{} of {} stripes on the board", i, laser_planes)
-          : points.empty()
-              ? "no light on the board; is the laser on in this picture, and bright enough?"
-              : fmt::format("no straight stripe on the board ({} bright points on it)", points.size());
+      result.reason = i > 0 ? fmt::format("{} of {} stripes on the board", i, laser_planes)
+                            : why_no_line(stripes, points, *map, target);
       result.planes.clear();
       return result;
     }
@@ -224,19 +229,50 @@ StripeOnBoard select_stripes(const std::vector<Stripe>& stripes, const std::vect
   return result;
 }
 
+namespace {
+
+/// Board and stripe in one picture: the line must look like a laser's.
+StripeOnBoard find_in_one_picture(ImageView8 image, const std::vector<Vector2d>& corners,
+                                  const Target& target, int laser_planes,
+                                  const ExtractionOptions& extraction) {
+  StripeOnBoard result =
+      select_stripes(extract_stripes(image, extraction).stripes, corners, target, laser_planes);
+  for (const auto& line : result.planes) {
+    const std::string why = no_laser_because(image, line, corners, target);
+    if (why.empty()) continue;
+    result.planes.clear();
+    result.reason = why;
+    break;
+  }
+  return result;
+}
+
+}  // namespace
+
 StripeOnBoard find_stripe_on_board(ImageView8 laser, ImageView8 board, const std::vector<Vector2d>& corners,
                                    const Target& target, int laser_planes,
                                    const ExtractionOptions& extraction) {
-  if (board.empty())
-    return select_stripes(extract_stripes(laser, extraction).stripes, corners, target, laser_planes);
+  if (board.empty()) return find_in_one_picture(laser, corners, target, laser_planes, extraction);
   StripeOnBoard result;
   if (board.width != laser.width || board.height != laser.height) {
     result.reason = fmt::format("the laser image has {} x {} pixels, the board image {} x {}", laser.width,
                                 laser.height, board.width, board.height);
     return result;
   }
-  return select_stripes(extract_stripes(laser_light(laser, board), extraction).stripes, corners, target,
-                        laser_planes);
+  constexpr double kMovedPx = 1;
+  if (const auto shift = board_shift_px(laser, board, corners, target); shift && *shift > kMovedPx) {
+    result.reason = fmt::format(
+        "the board moved by {:.1f} px between the picture without laser and that with it", *shift);
+    return result;
+  }
+  result = select_stripes(extract_stripes(laser_light(laser, board), extraction).stripes, corners, target,
+                          laser_planes);
+  if (!result.planes.empty()) return result;
+  const auto swapped = select_stripes(extract_stripes(laser_light(board, laser), extraction).stripes, corners,
+                                      target, laser_planes);
+  if (!swapped.planes.empty() && swapped.reason.empty())
+    result.reason = "the laser line is in the picture under `board`: swap the patterns of board and laser";
+  return result;
 }
 
 }  // namespace lightstripe

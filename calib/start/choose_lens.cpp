@@ -21,29 +21,31 @@ constexpr std::array<LensModel, 7> kCandidates{
 
 /// The views of one camera alone, as a problem of their own.
 struct CameraViews {
-  SessionViews measurements;
+  SessionViews session;
   RigState state;
   std::vector<Residual> list;
 };
 
 CameraViews camera_views(const InitialValues& values, int sensor, std::size_t fold) {
-  const auto& all = values.measurements;
+  const auto& all = values.session;
   const auto s = static_cast<std::size_t>(sensor);
   CameraViews result;
-  result.measurements.target = all.target;
-  result.measurements.sensor_names = {all.sensor_names[s]};
-  result.measurements.image_sizes = {all.image_sizes[s]};
-  result.measurements.given_cameras.resize(1);
+  result.session.target = all.target;
+  result.session.sensor_names = {all.sensor_names[s]};
+  result.session.image_sizes = {all.image_sizes[s]};
+  result.session.given_cameras.resize(1);
   result.state.sensors.push_back({values.state.sensors[s].camera, {}, {}});
   std::size_t seen = 0;
   for (std::size_t i = 0; i < all.views.size(); ++i) {
-    if (all.views[i].sensor != sensor || all.views[i].pose < 0 || seen++ % 2 != fold) continue;
-    ViewMeasurement view;
+    const bool shows_board =
+        all.views[i].sensor == sensor && all.views[i].pose >= 0 && !all.views[i].height_mm;
+    if (!shows_board || seen++ % 2 != fold) continue;
+    SessionView view;
     view.pose = static_cast<int>(result.state.first_from_board.size());
     view.corners = all.views[i].corners;
     for (std::size_t c = 0; c < view.corners.size(); ++c)
-      if (is_seen(view.corners[c])) result.list.push_back({result.measurements.views.size(), -1, c, 0.1});
-    result.measurements.views.push_back(std::move(view));
+      if (is_seen(view.corners[c])) result.list.push_back({result.session.views.size(), -1, c, 0.1});
+    result.session.views.push_back(std::move(view));
     result.state.first_from_board.push_back(values.cam_from_board[i]);
   }
   return result;
@@ -51,14 +53,14 @@ CameraViews camera_views(const InitialValues& values, int sensor, std::size_t fo
 
 /// Mean squared error of each view's corners, px^2, without the largest twentieth of them: outliers.
 std::vector<double> view_errors(const CameraViews& views) {
-  std::vector<std::vector<double>> squares(views.measurements.views.size());
+  std::vector<std::vector<double>> squares(views.session.views.size());
   const auto& camera = views.state.sensors[0].camera;
   for (const auto& m : views.list) {
-    const auto xy = views.measurements.target.corner(static_cast<int>(m.index));
-    const auto place = board_place(views.measurements.target, xy);
+    const auto xy = views.session.target.corner(static_cast<int>(m.index));
+    const auto place = board_place(views.session.target, xy);
     const auto q =
         project(camera, views.state.first_from_board[m.view] * place.point(views.state.board_warp_mm));
-    const auto& seen = views.measurements.views[m.view].corners[m.index];
+    const auto& seen = views.session.views[m.view].corners[m.index];
     squares[m.view].push_back(q ? (*q - seen).squaredNorm() : std::numeric_limits<double>::infinity());
   }
   std::vector<double> errors;
@@ -76,7 +78,7 @@ std::vector<double> view_errors(const CameraViews& views) {
 bool solve(CameraViews& views, LensModel lens, bool board_warp) {
   constexpr double kMaxCondition = 1e10;  // brown4 and tilted models have 1e6 to 1e8
   constexpr double kRobustScale = 30;     // of 0.1 px: gross errors only
-  JointProblem joint(views.measurements, views.state, views.list,
+  JointProblem joint(views.session, views.state, views.list,
                      {{lens}, board_warp, ProblemOptions::Loss::kHuber, kRobustScale});
   const auto summary = solve_problem(joint, 30, 1e-7);
   views.state = joint.state();
@@ -93,7 +95,7 @@ std::vector<double> held_out_errors(const InitialValues& values, int sensor, std
   if (!solve(train, lens, board_warp) || !invertible_over_image(train.state.sensors[0].camera)) return {};
   test.state.sensors = train.state.sensors;
   test.state.board_warp_mm = train.state.board_warp_mm;
-  test.measurements.given_cameras[0] = GivenCamera{test.state.sensors[0].camera, true};
+  test.session.given_cameras[0] = GivenCamera{test.state.sensors[0].camera, true};
   if (!solve(test, lens, false)) return {};
   return view_errors(test);
 }
@@ -145,10 +147,11 @@ LensModel leanest_worth_it(const std::vector<Tried>& tried) {
 
 LensChoice choose_lens(const InitialValues& values, int sensor, const CalibrationOptions& options) {
   LensChoice choice;
-  choice.sensor = values.measurements.sensor_names[static_cast<std::size_t>(sensor)];
+  choice.sensor = values.session.sensor_names[static_cast<std::size_t>(sensor)];
   choice.lens = LensModel::kBrown4;
-  const auto views = std::count_if(values.measurements.views.begin(), values.measurements.views.end(),
-                                   [&](const auto& v) { return v.sensor == sensor && v.pose >= 0; });
+  const auto views =
+      std::count_if(values.session.views.begin(), values.session.views.end(),
+                    [&](const auto& v) { return v.sensor == sensor && v.pose >= 0 && !v.height_mm; });
   if (static_cast<std::size_t>(views) < kMinViews) return choice;
   std::array<std::array<std::vector<double>, 2>, kCandidates.size()> halves;
   const auto try_lens = [&](std::size_t i) {

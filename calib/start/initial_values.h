@@ -13,14 +13,14 @@ namespace lightstripe {
 
 /// What is known so far; the stages fill `state` one part after the other.
 struct InitialValues {
-  SessionViews measurements;
-  std::vector<Rigid3> cam_from_board;  ///< for each view of `measurements`, in the camera of its sensor
+  SessionViews session;
+  std::vector<Rigid3> cam_from_board;  ///< for each view of `session`, in the camera of its sensor
   RigState state;
   std::vector<std::string> warnings;
 };
 
 /// All stages in their order.
-InitialValues initial_values(SessionViews measurements);
+InitialValues initial_values(SessionViews session);
 
 /// Intrinsics and board poses of every sensor on its own (Zhang 2000, cv::calibrateCamera with k1 k2 p1 p2);
 /// fills state.sensors[].camera and cam_from_board.

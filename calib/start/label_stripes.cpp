@@ -14,7 +14,7 @@ using Stripes = std::vector<std::vector<StripePoint>>;
 
 constexpr std::size_t kMaxPermuted = 6;  // planes up to which every order is tried
 
-bool of_sensor(const ViewMeasurement& view, int sensor) { return view.sensor == sensor && view.pose >= 0; }
+bool of_sensor(const SessionView& view, int sensor) { return view.sensor == sensor && view.pose >= 0; }
 
 /// Direction of a stripe in the image, radians in 0 .. pi.
 double direction(const std::vector<StripePoint>& stripe) {
@@ -24,7 +24,7 @@ double direction(const std::vector<StripePoint>& stripe) {
 }
 
 void sort_by_direction(InitialValues& values, int sensor) {
-  for (auto& view : values.measurements.views)
+  for (auto& view : values.session.views)
     if (of_sensor(view, sensor))
       std::stable_sort(view.stripes.begin(), view.stripes.end(),
                        [](const auto& a, const auto& b) { return direction(a) < direction(b); });
@@ -36,10 +36,10 @@ double misfit(const InitialValues& values, std::size_t i, const std::vector<Stri
               const std::optional<Plane>& plane) {
   constexpr double kCap_mm = 20;
   if (stripe.size() < kMinStripePoints || !plane) return 0;
-  const auto& view = values.measurements.views[i];
+  const auto& view = values.session.views[i];
   const auto& camera = values.state.sensors[static_cast<std::size_t>(view.sensor)].camera;
   const Plane board = board_plane(values.cam_from_board[i]);
-  StripeInSpace in_space{i, {}};
+  StripeInSpace in_space{i, 0, {}};
   for (const auto& point : stripe) {
     const auto ray = unproject(camera, {point.x, point.y});
     const auto p = ray ? intersect(board, Eigen::Vector3d::Zero(), *ray) : std::nullopt;
@@ -51,7 +51,7 @@ double misfit(const InitialValues& values, std::size_t i, const std::vector<Stri
 /// The order of the view's stripes that fits the planes best: result[k] = which stripe lies in plane k.
 std::vector<std::size_t> best_order(const InitialValues& values, std::size_t i,
                                     const std::vector<std::optional<Plane>>& planes) {
-  const auto& stripes = values.measurements.views[i].stripes;
+  const auto& stripes = values.session.views[i].stripes;
   std::vector<std::size_t> order(planes.size()), best;
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::vector<std::vector<double>> cost(planes.size(), std::vector<double>(stripes.size()));
@@ -77,8 +77,8 @@ double settle(InitialValues& values, int sensor, std::size_t planes) {
       fitted.push_back(least_median_plane(stripes_in_space(values, sensor, k)));
     bool changed = false;
     cost = 0;
-    for (std::size_t i = 0; i < values.measurements.views.size(); ++i) {
-      auto& view = values.measurements.views[i];
+    for (std::size_t i = 0; i < values.session.views.size(); ++i) {
+      auto& view = values.session.views[i];
       if (!of_sensor(view, sensor)) continue;
       const auto order = best_order(values, i, fitted);
       Stripes sorted;
@@ -102,8 +102,8 @@ void label_stripes(InitialValues& values, int sensor, std::size_t planes) {
   const double place_cost = settle(by_place, sensor, planes),
                direction_cost = settle(by_direction, sensor, planes);
   // Lines beside each other differ by place, crossing ones by direction.
-  values.measurements.views =
-      std::move(direction_cost < place_cost ? by_direction.measurements.views : by_place.measurements.views);
+  values.session.views =
+      std::move(direction_cost < place_cost ? by_direction.session.views : by_place.session.views);
 }
 
 }  // namespace lightstripe

@@ -22,18 +22,18 @@ double difference_mm(const Rigid3& a, const Rigid3& b) {
 
 /// b_from_a by every common pose, for every way to list b's corners.
 std::vector<std::vector<Rigid3>> candidates(const InitialValues& values, int a, int b) {
-  const auto& views = values.measurements.views;
-  const std::size_t turns = corner_orders(values.measurements.target).size();
+  const auto& views = values.session.views;
+  const std::size_t turns = corner_orders(values.session.target).size();
   std::map<int, std::size_t> seen_by_a;  // pose -> view
   for (std::size_t i = 0; i < views.size(); ++i)
-    if (views[i].sensor == a && views[i].pose >= 0) seen_by_a[views[i].pose] = i;
+    if (views[i].sensor == a && views[i].pose >= 0 && !views[i].height_mm) seen_by_a[views[i].pose] = i;
   std::vector<std::vector<Rigid3>> result;
   for (std::size_t i = 0; i < views.size(); ++i) {
     const auto in_a = seen_by_a.find(views[i].pose);
-    if (views[i].sensor != b || views[i].pose < 0 || in_a == seen_by_a.end()) continue;
+    if (views[i].sensor != b || views[i].pose < 0 || views[i].height_mm || in_a == seen_by_a.end()) continue;
     result.emplace_back();
     for (std::size_t k = 0; k < turns; ++k)
-      result.back().push_back(values.cam_from_board[i] * board_turn(values.measurements.target, k) *
+      result.back().push_back(values.cam_from_board[i] * board_turn(values.session.target, k) *
                               values.cam_from_board[in_a->second].inverse());
   }
   return result;
@@ -81,7 +81,7 @@ void chain_sensors(InitialValues& values) {
       }
     }
     if (to < 0) return;  // the caller names who is left
-    const auto& names = values.measurements.sensor_names;
+    const auto& names = values.session.sensor_names;
     if (best.size() == 1)
       values.warnings.push_back(fmt::format("sensors {} and {} share one pose of the board only",
                                             names[static_cast<std::size_t>(from)],
@@ -93,7 +93,7 @@ void chain_sensors(InitialValues& values) {
 }
 
 void refuse_unlinked(const InitialValues& values) {
-  const auto& names = values.measurements.sensor_names;
+  const auto& names = values.session.sensor_names;
   const int n = static_cast<int>(names.size());
   std::vector<bool> linked(names.size(), false);
   linked[0] = true;
@@ -115,13 +115,13 @@ void refuse_unlinked(const InitialValues& values) {
 /// The way to list the corners of view i that brings it nearest to the pose known so far.
 std::size_t nearest_turn(const InitialValues& values, std::size_t i, const Rigid3& first_from_board,
                          double* difference) {
-  const auto& view = values.measurements.views[i];
+  const auto& view = values.session.views[i];
   const auto& sensor = values.state.sensors[static_cast<std::size_t>(view.sensor)];
-  const std::size_t turns = corner_orders(values.measurements.target).size();
+  const std::size_t turns = corner_orders(values.session.target).size();
   std::size_t best = 0;
   *difference = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < turns; ++k) {
-    const Rigid3 turned = values.cam_from_board[i] * board_turn(values.measurements.target, k);
+    const Rigid3 turned = values.cam_from_board[i] * board_turn(values.session.target, k);
     const double d = difference_mm(turned, sensor.cam_from_first * first_from_board);
     if (d < *difference) {
       *difference = d;
@@ -136,13 +136,14 @@ std::size_t nearest_turn(const InitialValues& values, std::size_t i, const Rigid
 void gather_poses(InitialValues& values) {
   constexpr double kMaxDifference =
       0.08;  // of the range, between two sensors' opinions of one pose; noise gives 0.5 %
-  auto& m = values.measurements;
+  auto& m = values.session;
   const auto orders = corner_orders(m.target);
   std::vector<std::optional<Rigid3>> poses(m.poses.size());
   std::vector<bool> keep(m.views.size(), true);
+  int compared = 0, contradicting = 0;
   for (std::size_t i = 0; i < m.views.size(); ++i) {
     auto& view = m.views[i];
-    if (view.pose < 0) continue;
+    if (view.pose < 0 || view.height_mm) continue;
     auto& pose = poses[static_cast<std::size_t>(view.pose)];
     if (!pose) {
       const auto& sensor = values.state.sensors[static_cast<std::size_t>(view.sensor)];
@@ -151,8 +152,10 @@ void gather_poses(InitialValues& values) {
     }
     double difference = 0;
     const std::size_t k = nearest_turn(values, i, *pose, &difference);
+    ++compared;
     if (difference > kMaxDifference * values.cam_from_board[i].translation.norm()) {
       keep[i] = false;
+      ++contradicting;
       values.warnings.push_back(
           fmt::format("{}: left out, another sensor sees the board of pose {} {:.0f} mm away; are "
                       "these images of the same moment?",
@@ -162,6 +165,11 @@ void gather_poses(InitialValues& values) {
       values.cam_from_board[i] = values.cam_from_board[i] * board_turn(m.target, k);
     }
   }
+  if (contradicting > 0 && 2 * contradicting >= compared)
+    throw NotUsable(
+        fmt::format("the sensors contradict each other in {} of {} common poses of the board; check that "
+                    "pictures with the same text in their names show the same moment",
+                    contradicting, compared));
   keep_views(values, keep);
   for (const auto& pose : poses) values.state.first_from_board.push_back(pose.value_or(Rigid3{}));
 }

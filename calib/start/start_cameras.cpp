@@ -9,6 +9,7 @@
 #include <opencv2/calib3d.hpp>
 #include <span>
 
+#include "calib/adjust/board_surface.h"
 #include "calib/start/board_pose.h"
 #include "calib/start/initial_values.h"
 
@@ -67,7 +68,7 @@ Rigid3 rigid(const cv::Mat& rotation_vector, const cv::Mat& translation) {
 
 /// The board's normal for a camera of a guessed focal length: K^T times the vanishing line of the board's
 /// plane.
-Eigen::Vector3d rough_normal(const ViewMeasurement& view, const Target& target, double width, double height) {
+Eigen::Vector3d rough_normal(const SessionView& view, const Target& target, double width, double height) {
   std::vector<cv::Point2f> board;
   for (const auto& p : cv_board(target, view.corners)) board.emplace_back(p.x, p.y);
   const cv::Mat H = cv::findHomography(board, cv_points(view.corners));
@@ -83,7 +84,7 @@ Eigen::Vector3d rough_normal(const ViewMeasurement& view, const Target& target, 
 }
 
 /// Rms distance of the corners that both views show, px; large where they share none.
-double corner_distance_px(const ViewMeasurement& a, const ViewMeasurement& b) {
+double corner_distance_px(const SessionView& a, const SessionView& b) {
   double sum = 0;
   int count = 0;
   for (std::size_t i = 0; i < a.corners.size(); ++i) {
@@ -94,7 +95,7 @@ double corner_distance_px(const ViewMeasurement& a, const ViewMeasurement& b) {
   return count > 0 ? std::sqrt(sum / count) : 1e9;
 }
 
-void refuse_single_pose(const std::vector<const ViewMeasurement*>& views, const std::string& sensor,
+void refuse_single_pose(const std::vector<const SessionView*>& views, const std::string& sensor,
                         const std::array<int, 2>& size) {
   const double moved_px = 0.003 * std::hypot(size[0], size[1]);
   for (const auto* view : views)
@@ -106,7 +107,7 @@ void refuse_single_pose(const std::vector<const ViewMeasurement*>& views, const 
                   sensor));
 }
 
-void refuse_parallel_boards(const std::vector<const ViewMeasurement*>& views, const Target& target,
+void refuse_parallel_boards(const std::vector<const SessionView*>& views, const Target& target,
                             const std::string& sensor, const std::array<int, 2>& size) {
   std::vector<Eigen::Vector3d> normals;
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
@@ -130,7 +131,7 @@ struct CameraStart {
   std::vector<double> view_rms_px;
 };
 
-CameraStart calibrate_camera(const std::vector<const ViewMeasurement*>& views, const Target& target,
+CameraStart calibrate_camera(const std::vector<const SessionView*>& views, const Target& target,
                              const std::string& sensor, const std::array<int, 2>& size) {
   std::vector<std::vector<cv::Point2f>> pixels;
   std::vector<std::vector<cv::Point3f>> boards;
@@ -168,10 +169,10 @@ CameraStart calibrate_camera_robustly(InitialValues& values, std::vector<std::si
                                       const std::string& sensor, const std::array<int, 2>& size) {
   const std::size_t least = std::max<std::size_t>(3, indices.size() - indices.size() / 4);
   for (;;) {
-    std::vector<const ViewMeasurement*> views;
+    std::vector<const SessionView*> views;
     views.reserve(indices.size());
-    for (const auto i : indices) views.push_back(&values.measurements.views[i]);
-    CameraStart start = calibrate_camera(views, values.measurements.target, sensor, size);
+    for (const auto i : indices) views.push_back(&values.session.views[i]);
+    CameraStart start = calibrate_camera(views, values.session.target, sensor, size);
     const auto worst = std::max_element(start.view_rms_px.begin(), start.view_rms_px.end());
     if (!(*worst > kMaxViewErrorPx) || indices.size() <= least) return start;
     const auto position = worst - start.view_rms_px.begin();
@@ -181,7 +182,7 @@ CameraStart calibrate_camera_robustly(InitialValues& values, std::vector<std::si
   }
 }
 
-Rigid3 pose_of(const ViewMeasurement& view, const Target& target, const Camera& camera) {
+Rigid3 pose_of(const SessionView& view, const Target& target, const Camera& camera) {
   const auto pose = board_pose(camera, target, view.corners);
   if (!pose)
     throw NotUsable(view.image +
@@ -189,21 +190,41 @@ Rigid3 pose_of(const ViewMeasurement& view, const Target& target, const Camera& 
   return rounded(*pose);
 }
 
+bool knows_heights(const SessionViews& session, std::size_t sensor) {
+  return std::any_of(session.views.begin(), session.views.end(), [&](const SessionView& view) {
+    return view.sensor == static_cast<int>(sensor) && view.height_mm;
+  });
+}
+
+/// Pictures of known heights stand on the bed's board.
+void place_heights(InitialValues& values, std::vector<bool>& keep) {
+  const auto& views = values.session.views;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    if (!views[i].height_mm) continue;
+    for (std::size_t k = 0; k < views.size(); ++k) {
+      if (views[k].pose != views[i].pose || views[k].height_mm || !keep[k]) continue;
+      values.cam_from_board[i] = raised(values.cam_from_board[k], *views[i].height_mm);
+      keep[i] = true;
+    }
+  }
+}
+
 }  // namespace
 
 void start_cameras(InitialValues& values) {
-  auto& m = values.measurements;
+  auto& m = values.session;
   std::vector<bool> keep(m.views.size(), false);
   values.cam_from_board.resize(m.views.size());
   for (std::size_t sensor = 0; sensor < m.sensor_names.size(); ++sensor) {
     std::vector<std::size_t> indices;
-    std::vector<const ViewMeasurement*> views;
+    std::vector<const SessionView*> views;
     for (std::size_t i = 0; i < m.views.size(); ++i) {
-      if (m.views[i].sensor != static_cast<int>(sensor) || m.views[i].pose < 0) continue;
+      if (m.views[i].sensor != static_cast<int>(sensor) || m.views[i].pose < 0 || m.views[i].height_mm)
+        continue;
       indices.push_back(i);
       views.push_back(&m.views[i]);
     }
-    refuse_single_pose(views, m.sensor_names[sensor], m.image_sizes[sensor]);
+    if (!knows_heights(m, sensor)) refuse_single_pose(views, m.sensor_names[sensor], m.image_sizes[sensor]);
     if (m.given_cameras[sensor]) {
       values.state.sensors.push_back({m.given_cameras[sensor]->camera, {}, {}});
       for (const std::size_t i : indices) {
@@ -227,6 +248,7 @@ void start_cameras(InitialValues& values) {
     const auto& camera = values.state.sensors[static_cast<std::size_t>(m.views[i].sensor)].camera;
     values.cam_from_board[i] = pose_of(m.views[i], m.target, camera);
   }
+  place_heights(values, keep);
   keep_views(values, keep);
 }
 

@@ -3,49 +3,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
-#include <optional>
-#include <span>
 
+#include "calib/start/height_lines.h"
 #include "calib/start/initial_values.h"
+#include "calib/start/pairing_faults.h"
 #include "calib/start/stripe_planes.h"
 
 namespace lightstripe {
 namespace {
 
-using Eigen::Vector3d;
-
-// A stripe this near to the plane agrees with it, as a share of the range.
-constexpr double kRoughAgreement = 0.01, kAgreement = 0.0015;
-
-std::vector<const StripeInSpace*> near_plane(const std::vector<StripeInSpace>& stripes, const Plane& plane,
-                                             double share_of_range, double least_mm) {
-  std::vector<const StripeInSpace*> result;
-  for (const auto& stripe : stripes)
-    if (distance_to(plane, stripe) <= std::max(share_of_range * stripe.points.front().norm(), least_mm))
-      result.push_back(&stripe);
-  return result;
-}
-
-/// The stripes that lie in one plane. Two views alone place the plane badly elsewhere: all views near it, by
-/// a generous measure, place it better, and a strict measure then follows.
-std::vector<const StripeInSpace*> agreeing(const std::vector<StripeInSpace>& stripes) {
-  std::vector<const StripeInSpace*> roughly;
-  const auto start = least_median_plane(stripes);
-  if (start) roughly = near_plane(stripes, *start, kRoughAgreement, 0);
-  if (!start)
-    for (const auto& stripe : stripes)
-      roughly.push_back(&stripe);  // no pair spans a plane: the caller says so
-  if (!start || roughly.size() < 2) return roughly;
-  const Plane plane = plane_through(roughly).plane;
-  std::vector<double> distances;
-  distances.reserve(roughly.size());
-  for (const auto* stripe : roughly) distances.push_back(distance_to(plane, *stripe));
-  return near_plane(stripes, plane, kAgreement, 5 * median(std::move(distances)));
-}
+constexpr std::size_t kMinAgreeing = 3;  // two lines may share a plane by chance
 
 std::string plane_name(const InitialValues& values, int sensor, std::size_t plane) {
-  const auto& s = values.measurements.sensor_names[static_cast<std::size_t>(sensor)];
+  const auto& s = values.session.sensor_names[static_cast<std::size_t>(sensor)];
   return plane == 0 ? fmt::format("sensor {}", s) : fmt::format("sensor {}, laser plane {}", s, plane + 1);
 }
 
@@ -68,45 +38,72 @@ void refuse_degenerate(const PlaneFit& fit, const std::vector<const StripeInSpac
                     name, fit.plane.offset));
 }
 
+/// Says what share of the stripes lies in one plane, and what may have happened.
+void refuse_minority(const InitialValues& values, const std::vector<StripeInSpace>& stripes,
+                     std::size_t agreeing, const std::string& name) {
+  const bool enough = agreeing >= std::min(kMinAgreeing, stripes.size()) && 2 * agreeing > stripes.size();
+  const bool clearly = enough && 4 * agreeing >= 3 * stripes.size();
+  if (clearly) return;
+  const std::string guess = guess_pairing(values, stripes, agreeing);
+  if (enough && guess.empty()) return;  // a better explanation is needed to doubt the larger part
+  throw NotUsable(fmt::format(
+      "{}: {} of {} stripes lie in one plane; {}", name,
+      agreeing == 0 ? "none" : fmt::format("only {}", agreeing), stripes.size(),
+      guess.empty() ? "check that each laser picture shows the pose of its board picture, and that the line "
+                      "is the laser's"
+                    : guess));
+}
+
+/// Drops the stripes that do not count, and says why.
+void leave_out(InitialValues& values, const std::vector<StripeInSpace>& stripes,
+               const std::vector<const StripeInSpace*>& kept, const Plane& laser, std::size_t plane) {
+  for (const auto& stripe : stripes) {
+    auto& view = values.session.views[stripe.view];
+    const bool agrees = std::find(kept.begin(), kept.end(), &stripe) != kept.end();
+    const bool crosses = stripe_line(board_plane(values.cam_from_board[stripe.view]), laser).has_value();
+    if (agrees && crosses) continue;
+    values.warnings.push_back(
+        agrees ? fmt::format("{}: stripe left out, the board is parallel to the laser plane", view.image)
+               : fmt::format("{}: stripe left out, it lies {:.1f} mm off the laser plane of the others{}",
+                             view.image, distance_to(laser, stripe), guess_partner(values, stripe, laser)));
+    view.stripes[plane].clear();
+  }
+}
+
 Plane start_plane(InitialValues& values, int sensor, std::size_t plane) {
   const auto name = plane_name(values, sensor, plane);
   const auto stripes = stripes_in_space(values, sensor, plane);
+  if (stripes.empty())
+    throw NotUsable(
+        fmt::format("{}: the stripe was found on 0 boards only: no laser line on any board; boards for the "
+                    "camera alone are asked for by laser: none",
+                    name));
   if (stripes.size() < 2)
     throw NotUsable(
         fmt::format("{}: the stripe was found on {} boards only; at least 2 are needed, better all of them",
                     name, stripes.size()));
-  const auto kept = agreeing(stripes);
-  if (kept.size() < 2)
-    throw NotUsable(
-        fmt::format("{}: the stripes of the boards lie in no common plane; check that each laser image shows "
-                    "the pose of its board image",
-                    name));
+  values.session.stripes_found[static_cast<std::size_t>(sensor)].push_back(static_cast<int>(stripes.size()));
+  const auto kept = stripes_in_one_plane(stripes);
+  refuse_minority(values, stripes, kept.size(), name);
   const PlaneFit fit = plane_through(kept);
   refuse_degenerate(fit, kept, name);
-  for (auto& view : values.measurements.views)
+  refuse_flipped_pictures(values, stripes, kept, fit.plane, name);
+  for (auto& view : values.session.views)
     if (view.sensor == sensor && view.pose >= 0 && view.stripes[plane].size() < kMinStripePoints)
       view.stripes[plane].clear();
-  for (const auto& stripe : stripes) {
-    auto& view = values.measurements.views[stripe.view];
-    const bool agrees = std::find(kept.begin(), kept.end(), &stripe) != kept.end();
-    const bool crosses = stripe_line(board_plane(values.cam_from_board[stripe.view]), fit.plane).has_value();
-    if (agrees && crosses) continue;
-    view.stripes[plane].clear();
-    values.warnings.push_back(
-        agrees ? fmt::format("{}: stripe left out, the board is parallel to the laser plane", view.image)
-               : fmt::format("{}: stripe left out, it lies {:.1f} mm off the laser plane of the others",
-                             view.image, distance_to(fit.plane, stripe)));
-  }
+  leave_out(values, stripes, kept, fit.plane, plane);
   return fit.plane;
 }
 
 }  // namespace
 
 void start_laser_planes(InitialValues& values) {
+  values.session.stripes_found.assign(values.state.sensors.size(), {});
   for (std::size_t sensor = 0; sensor < values.state.sensors.size(); ++sensor) {
     std::size_t planes = 0;
-    for (const auto& view : values.measurements.views)
+    for (const auto& view : values.session.views)
       if (view.sensor == static_cast<int>(sensor)) planes = std::max(planes, view.stripes.size());
+    if (planes == 1) choose_height_lines(values, static_cast<int>(sensor));
     if (planes > 1) label_stripes(values, static_cast<int>(sensor), planes);
     for (std::size_t plane = 0; plane < planes; ++plane)
       values.state.sensors[sensor].laser_planes.push_back(

@@ -18,6 +18,7 @@ using Eigen::Vector3d;
 
 constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kMaxScaleError = 0.02;  // of travel against what the camera sees, before a warning
+constexpr double kWrongScale = 0.05;     // no scale or encoder is as bad: squares or travel are wrong
 
 /// The fixed board as the motion views see it, first frame, with the signed travel of each.
 struct Track {
@@ -32,7 +33,7 @@ struct Track {
 /// Boards that look the same from several sides are listed so that neighbours in travel differ by the
 /// smallest rotation.
 Track follow_board(InitialValues& values) {
-  auto& m = values.measurements;
+  auto& m = values.session;
   const auto orders = corner_orders(m.target);
   const Rigid3 first_from_cam =
       values.state.sensors[static_cast<std::size_t>(m.motion_sensor)].cam_from_first.inverse();
@@ -60,8 +61,7 @@ Track follow_board(InitialValues& values) {
 
 /// Least squares of the board's middle against travel.
 MotionState fit_direction(const Track& track, const Target& target, std::vector<std::string>& warnings) {
-  const Vector3d middle(0.5 * (target.columns - 1) * target.pitch_x, 0.5 * (target.rows - 1) * target.pitch_y,
-                        0);
+  const Vector3d middle(target.middle().x(), target.middle().y(), 0);
   const double n = static_cast<double>(track.travel.size());
   double mean_s = 0;
   Vector3d mean_p = Vector3d::Zero();
@@ -76,11 +76,11 @@ MotionState fit_direction(const Track& track, const Target& target, std::vector<
     sp += (track.travel[i] - mean_s) * (track.first_from_board[i] * middle - mean_p);
   }
   const double scale = sp.norm() / ss;
-  if (!(scale > 0.5 && scale < 2))
+  if (!(std::abs(scale - 1) < kWrongScale))
     throw NotUsable(
-        fmt::format("motion: the board moved {:.2f} mm in the camera for each mm of travel; check that "
+        fmt::format("motion: the board moved {} mm in the camera for each mm of travel; check that "
                     "travel and squares are given in mm, and the order of the positions",
-                    scale));
+                    scale < 0.01 ? fmt::format("{:.2g}", scale) : fmt::format("{:.2f}", scale)));
   if (std::abs(scale - 1) > kMaxScaleError)
     warnings.push_back(
         fmt::format("motion: the board moved {:.3f} mm in the camera for each mm of travel", scale));
@@ -127,7 +127,7 @@ MotionState fit_axis(const Track& track) {
 
 void start_motion(InitialValues& values) {
   constexpr double kMinTravelMm = 1, kMinTurn = 5 * kDegree;
-  const bool rotary = values.measurements.motion == MotionType::kRotary;
+  const bool rotary = values.session.motion == MotionType::kRotary;
   const Track track = follow_board(values);
   if (track.travel.size() < 2)
     throw NotUsable(fmt::format(
@@ -142,7 +142,7 @@ void start_motion(InitialValues& values) {
                     rotary ? track.extent() / kDegree : track.extent(), rotary ? "degrees" : "mm",
                     rotary ? "degrees" : "mm"));
   values.state.motion =
-      rotary ? fit_axis(track) : fit_direction(track, values.measurements.target, values.warnings);
+      rotary ? fit_axis(track) : fit_direction(track, values.session.target, values.warnings);
 }
 
 }  // namespace lightstripe

@@ -12,6 +12,19 @@ using Eigen::Vector3d;
 namespace {
 
 constexpr std::size_t kMaxPairs = 2000;  // of views tried as the plane's start
+// A stripe this near to the plane agrees with it, as a share of the range.
+constexpr double kRoughAgreement = 0.01, kAgreement = 0.0015;
+
+std::vector<const StripeInSpace*> near_plane(const std::vector<StripeInSpace>& stripes, const Plane& plane,
+                                             double share_of_range, double least_mm) {
+  std::vector<const StripeInSpace*> result;
+  for (const auto& stripe : stripes) {
+    const double range = stripe.points.front().norm();
+    const double tolerance = std::clamp(least_mm, share_of_range * range, kRoughAgreement * range);
+    if (distance_to(plane, stripe) <= tolerance) result.push_back(&stripe);
+  }
+  return result;
+}
 
 }  // namespace
 
@@ -27,19 +40,26 @@ double distance_to(const Plane& plane, const StripeInSpace& stripe) {
   return median(std::move(distances));
 }
 
+StripeInSpace stripe_in_space(const InitialValues& values, std::size_t of, std::size_t board,
+                              std::size_t plane) {
+  const auto& view = values.session.views[of];
+  const auto& camera = values.state.sensors[static_cast<std::size_t>(view.sensor)].camera;
+  const Plane surface = board_plane(values.cam_from_board[board]);
+  StripeInSpace stripe{of, plane, {}};
+  for (const auto& point : view.stripes[plane]) {
+    const auto ray = unproject(camera, {point.x, point.y});
+    const auto p = ray ? intersect(surface, Vector3d::Zero(), *ray) : std::nullopt;
+    if (p) stripe.points.push_back(*p);
+  }
+  return stripe;
+}
+
 std::vector<StripeInSpace> stripes_in_space(const InitialValues& values, int sensor, std::size_t plane) {
   std::vector<StripeInSpace> result;
-  const auto& camera = values.state.sensors[static_cast<std::size_t>(sensor)].camera;
-  for (std::size_t i = 0; i < values.measurements.views.size(); ++i) {
-    const auto& view = values.measurements.views[i];
+  for (std::size_t i = 0; i < values.session.views.size(); ++i) {
+    const auto& view = values.session.views[i];
     if (view.sensor != sensor || view.pose < 0) continue;
-    const Plane board = board_plane(values.cam_from_board[i]);
-    StripeInSpace stripe{i, {}};
-    for (const auto& point : view.stripes[plane]) {
-      const auto ray = unproject(camera, {point.x, point.y});
-      const auto p = ray ? intersect(board, Vector3d::Zero(), *ray) : std::nullopt;
-      if (p) stripe.points.push_back(*p);
-    }
+    auto stripe = stripe_in_space(values, i, i, plane);
     if (stripe.points.size() >= kMinStripePoints) result.push_back(std::move(stripe));
   }
   return result;
@@ -75,6 +95,23 @@ std::optional<Plane> least_median_plane(const std::vector<StripeInSpace>& stripe
     }
   }
   return plane;
+}
+
+std::vector<const StripeInSpace*> stripes_in_one_plane(const std::vector<StripeInSpace>& stripes) {
+  std::vector<const StripeInSpace*> roughly;
+  const auto start = least_median_plane(stripes);
+  if (start) roughly = near_plane(stripes, *start, kRoughAgreement, 0);
+  if (!start)
+    for (const auto& stripe : stripes)
+      roughly.push_back(&stripe);  // no pair spans a plane: the caller says so
+  if (!start || roughly.size() < 2) return roughly;
+  // Two views alone place the plane badly elsewhere: all views near it place it better, and a strict measure
+  // then follows.
+  const Plane plane = plane_through(roughly).plane;
+  std::vector<double> distances;
+  distances.reserve(roughly.size());
+  for (const auto* stripe : roughly) distances.push_back(distance_to(plane, *stripe));
+  return near_plane(stripes, plane, kAgreement, 5 * median(std::move(distances)));
 }
 
 }  // namespace lightstripe

@@ -115,8 +115,7 @@ double mean_height(const std::vector<Vector3d>& points, const Rigid3& rig_from_b
 
 /// The middle is the same however the corners of a symmetric board are listed.
 Vector3d middle_of(const Target& target, const Rigid3& rig_from_board) {
-  return rig_from_board *
-         Vector3d(0.5 * (target.columns - 1) * target.pitch_x, 0.5 * (target.rows - 1) * target.pitch_y, 0);
+  return rig_from_board * Vector3d(target.middle().x(), target.middle().y(), 0);
 }
 
 VerifiedPair compare(const SeenBoard& a, const SeenBoard& b, const std::string& pose, const Target& target) {

@@ -79,4 +79,11 @@ std::vector<std::uint8_t> draw_overlay(ImageView8 image, const std::vector<Strip
   return rgb;
 }
 
+void draw_stripes(std::vector<std::uint8_t>& rgb, int width, int height, const std::vector<Stripe>& stripes) {
+  LIGHTSTRIPE_CHECK(rgb.size() == static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 3,
+                    "3 bytes a pixel");
+  cv::Mat picture(height, width, CV_8UC3, rgb.data());
+  for (std::size_t line = 0; line < stripes.size(); ++line) draw_stripe(stripes[line], line, 1, picture);
+}
+
 }  // namespace lightstripe

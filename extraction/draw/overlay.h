@@ -22,4 +22,7 @@ struct OverlayOptions {
 std::vector<std::uint8_t> draw_overlay(ImageView8 image, const std::vector<Stripe>& stripes,
                                        const OverlayOptions& options = {});
 
+/// Draws the same into an interleaved RGB picture of width * height * 3 bytes.
+void draw_stripes(std::vector<std::uint8_t>& rgb, int width, int height, const std::vector<Stripe>& stripes);
+
 }  // namespace lightstripe

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "extraction/follow/direction_guided_step.h"
 #include "extraction/image/binned_image.h"
 
 namespace lightstripe {
@@ -107,6 +106,20 @@ bool enough_lines(const FollowRule& rule, const LineSet& lines) {
 }  // namespace
 
 template <class T>
+bool follow_line_at(const RidgeFinder<T>& finder, int x, int y, MaskLabels& labels,
+                    DirectionGuidedWorkspace<T>& workspace, LineSet& lines) {
+  const auto start = finder.first_point(x, y);
+  if (!start) return false;
+  const auto sx = static_cast<int>(std::lround(start->x)), sy = static_cast<int>(std::lround(start->y));
+  if (!finder.image.contains(sx, sy)) return false;
+  const std::uint16_t label = workspace.mask(finder.in_mask(sx), finder.in_mask(sy));
+  if (label != ExclusionMask::kFree && label != ExclusionMask::kDead) return false;
+  const std::size_t before = lines.lines.size();
+  follow_both_ways(finder, *start, labels, workspace, lines);
+  return lines.lines.size() > before;
+}
+
+template <class T>
 void follow_lines(ImageView<T> image, const DerivativeKernels& kernels, const RidgeLimits& limits,
                   const FollowRule& rule, DirectionGuidedWorkspace<T>& workspace, LineSet& lines) {
   if (image.empty() || rule.brightest <= 0) return;
@@ -122,6 +135,10 @@ void follow_lines(ImageView<T> image, const DerivativeKernels& kernels, const Ri
   }
 }
 
+template bool follow_line_at<std::uint8_t>(const RidgeFinder<std::uint8_t>&, int, int, MaskLabels&,
+                                           DirectionGuidedWorkspace<std::uint8_t>&, LineSet&);
+template bool follow_line_at<std::uint16_t>(const RidgeFinder<std::uint16_t>&, int, int, MaskLabels&,
+                                            DirectionGuidedWorkspace<std::uint16_t>&, LineSet&);
 template void follow_lines<std::uint8_t>(ImageView8, const DerivativeKernels&, const RidgeLimits&,
                                          const FollowRule&, DirectionGuidedWorkspace<std::uint8_t>&,
                                          LineSet&);

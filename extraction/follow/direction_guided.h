@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/image.h"
+#include "extraction/follow/direction_guided_step.h"
 #include "extraction/follow/exclusion_mask.h"
 #include "extraction/follow/line_seeds.h"
 #include "extraction/follow/ridge_limits.h"
@@ -33,6 +34,12 @@ struct FollowRule {
   int stop_after = 0;               ///< lines of at least `least_length` px; 0 = never
   double least_length = 0;
 };
+
+/// Follows the line whose ridge is near pixel (x, y) to both ends, marks it in the workspace's mask and
+/// appends it to `lines`; false where no line begins or another one has the place.
+template <class T>
+bool follow_line_at(const RidgeFinder<T>& finder, int x, int y, MaskLabels& labels,
+                    DirectionGuidedWorkspace<T>& workspace, LineSet& lines);
 
 /// Appends the lines of `image` to `lines` (x, y, normal, strength and flags are set), brightest first points
 /// first.

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <algorithm>
+#include <span>
 #include <vector>
 
 #include "core/stripe.h"
@@ -23,5 +24,9 @@ inline int evaluation_stride(double sigma) {
 /// Appends the `steps` - 1 points between a and b, which lie `steps` columns (rows) apart: a cubic through
 /// both with their directions.
 void append_between(const RidgePlace& a, const RidgePlace& b, int steps, std::vector<StripePoint>& out);
+
+/// Points of a line that was followed in an image of 2^shift x 2^shift means, as points of the image itself:
+/// again one a column (row), by the same cubic.
+void append_in_full_image(std::span<const StripePoint> binned, int shift, std::vector<StripePoint>& out);
 
 }  // namespace lightstripe

@@ -72,6 +72,10 @@ struct RidgeFinder {
   const DerivativeKernels& kernels;
   const RidgeLimits& limits;
   std::vector<T>& border_window;
+  int bin_shift = 0;  ///< the image's pixels are 2^bin_shift pixels of the one that the mask is for
+
+  /// A pixel of this image in the mask's.
+  int in_mask(int pixel) const { return (pixel << bin_shift) + ((1 << bin_shift) >> 1); }
 
   /// The first point of a line near pixel (x, y): Newton steps across the strongest curvature.
   std::optional<RidgePlace> first_point(int x, int y) const;

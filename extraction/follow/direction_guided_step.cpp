@@ -46,11 +46,15 @@ class Follower {
 
   /// Marks the pixels across the stripe.
   void mark(const RidgePlace& p) {
-    const double half = 2.1 * finder_.kernels.sigma;
-    if (p.direction.column_wise())
-      mask_.mark_column(nearest_pixel(p.x), p.y, half / std::abs(p.direction.x), labels_.current);
-    else
-      mask_.mark_row(nearest_pixel(p.y), p.x, half / std::abs(p.direction.y), labels_.current);
+    const int bin = 1 << finder_.bin_shift;
+    const double half = 2.1 * finder_.kernels.sigma * bin, middle = 0.5 * (bin - 1);
+    for (int k = 0; k < bin; ++k)
+      if (p.direction.column_wise())
+        mask_.mark_column(nearest_pixel(p.x) * bin + k, p.y * bin + middle, half / std::abs(p.direction.x),
+                          labels_.current);
+      else
+        mask_.mark_row(nearest_pixel(p.y) * bin + k, p.x * bin + middle, half / std::abs(p.direction.y),
+                       labels_.current);
   }
 
  private:
@@ -100,7 +104,7 @@ template <class T>
 bool Follower<T>::is_free(double x, double y) const {
   const auto column = nearest_pixel(x), row = nearest_pixel(y);
   if (!finder_.image.contains(column, row)) return false;
-  const std::uint16_t label = mask_(column, row);
+  const std::uint16_t label = mask_(finder_.in_mask(column), finder_.in_mask(row));
   return label == ExclusionMask::kFree || label == ExclusionMask::kDead || label == labels_.current ||
          label == previous_;
 }

@@ -48,9 +48,9 @@ std::vector<T>& zeros_of(SeedWorkspace& w) {
 
 template <class T>
 void collect(ImageView<T> image, const SeedRule& rule, SeedWorkspace& w) {
-  const ScanRule<T> scan{to_pixel<T>(std::min(rule.level, rule.brightest)),
-                         std::max(T{1}, to_pixel<T>(rule.contrast)),
-                         std::max(2, static_cast<int>(std::lround(3.2 * rule.sigma)))};
+  const ScanRule<T> scan{
+      to_pixel<T>(std::min(rule.level, rule.brightest)), std::max(T{1}, to_pixel<T>(rule.contrast)),
+      rule.reach > 0 ? rule.reach : std::max(2, static_cast<int>(std::lround(3.2 * rule.sigma)))};
   const T foreground = to_pixel<T>(rule.foreground);
   // A rank of 8 bits without a division a pixel.
   const auto scale = static_cast<std::uint32_t>(255.0 * 65536 / std::max(rule.brightest, 1.0));
@@ -58,7 +58,7 @@ void collect(ImageView<T> image, const SeedRule& rule, SeedWorkspace& w) {
   zeros.assign(static_cast<std::size_t>(image.width), T{});
   w.candidate_masks.resize(static_cast<std::size_t>((image.width + 63) / 64));
   w.found.clear();
-  const int step = row_step(rule.sigma), edge = std::min(scan.reach, image.width);
+  const int step = rule.step > 0 ? rule.step : row_step(rule.sigma), edge = std::min(scan.reach, image.width);
   for (int y = step / 2, number = 0; y < image.height; y += step, ++number) {
     const ScanRow<T> row{image.row(y), y >= scan.reach ? image.row(y - scan.reach) : zeros.data(),
                          y + scan.reach < image.height ? image.row(y + scan.reach) : zeros.data()};

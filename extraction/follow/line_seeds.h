@@ -23,6 +23,8 @@ struct SeedRule {
   double contrast = 1;    ///< grey levels over the surroundings
   double sigma = 1;       ///< px, the stripes' scale
   double brightest = 1;   ///< the image's largest grey level
+  int reach = 0;          ///< px to the surroundings on both sides; 0: as suits `sigma`
+  int step = 0;           ///< rows and columns between those that are searched; 0: as suits `sigma`
 };
 
 struct SeedWorkspace {

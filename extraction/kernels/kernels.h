@@ -18,7 +18,7 @@ struct Derivatives {
 };
 
 /// One-dimensional kernels of order 0, 1, 2 for `kPhases` sub-pixel shifts. A kernel pair (x, y) gives the
-/// derivatives at a place between the pixels, so that no phase bias remains (see refine in line_point.h).
+/// derivatives at a place between the pixels, so that no phase bias remains (see refine_points()).
 struct DerivativeKernels {
   static constexpr int kPhases = 32;
 

@@ -13,11 +13,12 @@ namespace {
 
 constexpr std::size_t kLeastReach = 2;  // nodes to both sides
 
-/// The way from a smoothed node to the true line. `sigma_px`: the node's own error.
-LocalFitPoint shift_of(const LocalFit& fit, double curvature_gain, double sigma, double sigma_px) {
+/// The way from a smoothed node to the true line. `sigma_px`: the node's own error, which it shares with its
+/// neighbours over `shared_px` along the line.
+LocalFitPoint shift_of(const LocalFit& fit, double curvature_gain, double sigma, double sigma_px,
+                       double shared_px) {
   const double half_variance = 0.5 * (sigma * sigma + 1.0 / 12);
-  // Neighbouring points share their noise over 2 sqrt(pi) sigma.
-  const double shared = std::max(1.0, 3.545 * sigma / std::sqrt(fit.squared_step));
+  const double shared = std::max(1.0, shared_px / std::sqrt(fit.squared_step));
   const double error = sigma_px * curvature_gain / fit.squared_step, variance = error * error * shared;
   const double square = fit.curvature_x * fit.curvature_x + fit.curvature_y * fit.curvature_y;
   if (square <= 0) return {};
@@ -29,7 +30,7 @@ LocalFitPoint shift_of(const LocalFit& fit, double curvature_gain, double sigma,
 }
 
 /// One stretch without gaps and bridges.
-void correct_stretch(std::span<StripePoint> points, double sigma, BendWorkspace& w) {
+void correct_stretch(std::span<StripePoint> points, double sigma, double shared_px, BendWorkspace& w) {
   // The bend of a line that was smoothed over sigma changes little within one.
   const auto stride = static_cast<std::size_t>(std::max(1.0, sigma));
   const auto most = std::max<std::size_t>(
@@ -44,7 +45,7 @@ void correct_stretch(std::span<StripePoint> points, double sigma, BendWorkspace&
     const std::size_t reach = std::min({most, n, w.nodes.size() - 1 - n});
     if (reach < kLeastReach) continue;
     if (reach != gain_reach) gain = local_fit_gains(gain_reach = reach).curvature;
-    w.shifts[n] = shift_of(fitter.at(n, reach), gain, sigma, points[n * stride].sigma_px);
+    w.shifts[n] = shift_of(fitter.at(n, reach), gain, sigma, points[n * stride].sigma_px, shared_px);
   }
   // Too near the ends for a fit of their own: the bend goes on.
   for (std::size_t n = 0; n < kLeastReach && w.nodes.size() > 2 * kLeastReach; ++n) {
@@ -70,7 +71,7 @@ void correct_curvature_bias(const DerivativeKernels& kernels, LineSet& lines, Be
     const std::span<StripePoint> line(lines.points.data() + r.begin, r.size());
     for (std::size_t begin = 0; begin < line.size();) {
       const std::size_t end = joined_end(line, begin);
-      correct_stretch(line.subspan(begin, end - begin), kernels.sigma, workspace);
+      correct_stretch(line.subspan(begin, end - begin), kernels.sigma, r.shared_px, workspace);
       begin = end;
     }
   }

@@ -93,7 +93,7 @@ bool is_joined(const EndView& end, std::size_t count) {
   return joined_end(stretch, 0) == count;
 }
 
-void mend_end(const EndView& end, double sigma, std::vector<LocalFitPoint>& places) {
+void mend_end(const EndView& end, double sigma, double shared_px, std::vector<LocalFitPoint>& places) {
   const auto scale = static_cast<std::size_t>(std::ceil(sigma));
   const std::size_t narrow = 2 * scale, wide = 4 * scale, most = 3 * scale, retreat = 3 * scale;
   if (end.size() < most + retreat + 2 * wide + 2) return;
@@ -104,7 +104,7 @@ void mend_end(const EndView& end, double sigma, std::vector<LocalFitPoint>& plac
   places.clear();
   for (std::size_t i = 0; i < needed; ++i) places.push_back({end[i].x, end[i].y});
   const double dx = places[1].x - places[0].x, dy = places[1].y - places[0].y;
-  const double shared = std::max(1.0, 3.545 * sigma / std::max(std::hypot(dx, dy), 0.5));
+  const double shared = std::max(1.0, shared_px / std::max(std::hypot(dx, dy), 0.5));
   const Inside inside{places, end[*whole + narrow].sigma_px, shared, narrow, wide};
   // An oblique cut draws the line aside before its strength falls: there the points further in do not lead to
   // it.
@@ -137,8 +137,8 @@ void mend_end(const EndView& end, double sigma, std::vector<LocalFitPoint>& plac
 void mend_line_ends(const DerivativeKernels& kernels, LineSet& lines, std::vector<LocalFitPoint>& places) {
   for (const LineRange& r : lines.lines) {
     const std::span<StripePoint> line(lines.points.data() + r.begin, r.size());
-    mend_end({line, false}, kernels.sigma, places);
-    mend_end({line, true}, kernels.sigma, places);
+    mend_end({line, false}, kernels.sigma, r.shared_px, places);
+    mend_end({line, true}, kernels.sigma, r.shared_px, places);
   }
 }
 

@@ -4,37 +4,17 @@
 // lit, mended over bright spots, and kept only if it behaves like a stripe over its whole length.
 #pragma once
 
+#include <cstdint>
+#include <span>
 #include <vector>
 
-#include "core/fields.h"
 #include "core/image.h"
 #include "extraction/kernels/kernels.h"
+#include "extraction/lines/line_filter_options.h"
 #include "extraction/lines/line_measure.h"
 #include "extraction/lines/line_set.h"
 
 namespace lightstripe {
-
-struct LineFilterOptions {
-  double min_length = 5.0;           ///< shortest line, in full stripe widths
-  double min_contrast = 0.15;        ///< weakest line, as a share of the brightest line's intensity
-  double clear_contrast = 0.4;       ///< below this share a line must also be regular and of the usual width
-  double min_contrast_to_noise = 3;  ///< weakest line: median contrast over the image noise
-  double max_width_ratio = 2.0;      ///< a line's width against the stripes' width, and the other way round
-  double spot_width_ratio = 1.5;  ///< a stretch so much wider than its line is a bright spot, not the stripe
-  int max_spot_widths = 10;       ///< longest spot that is bridged, in full stripe widths
-};
-
-template <class V>
-void visit_fields(V&& v, LineFilterOptions& o) {
-  v("min_length", o.min_length, "shortest line, in full stripe widths");
-  v("min_contrast", o.min_contrast, "weakest line, as a share of the brightest line's intensity");
-  v("clear_contrast", o.clear_contrast,
-    "weaker lines than this share must be as regular and as wide as the others");
-  v("min_contrast_to_noise", o.min_contrast_to_noise, "weakest line's contrast over the image noise");
-  v("max_width_ratio", o.max_width_ratio, "largest ratio of a line's width to the stripes' width");
-  v("spot_width_ratio", o.spot_width_ratio, "a stretch wider than its line by this ratio is a bright spot");
-  v("max_spot_widths", o.max_spot_widths, "longest spot that is bridged, in full stripe widths");
-}
 
 /// A stretch of bad points, [first, last].
 struct BadStretch {
@@ -44,12 +24,22 @@ struct BadStretch {
 
 /// What a whole line is like.
 struct LineFacts {
-  double length = 0;         ///< px
-  double width = 0;          ///< px, median
-  double intensity = 0;      ///< grey levels, upper quartile
-  double mean_strength = 0;  ///< grey levels / px^2
-  double bridged_share = 0;  ///< of the points
-  double odd_share = 0;      ///< bridged or asymmetric
+  double length = 0;          ///< px
+  double width = 0;           ///< px, median
+  double intensity = 0;       ///< grey levels, upper quartile
+  double mean_strength = 0;   ///< grey levels / px^2
+  double bridged_share = 0;   ///< of the points
+  double odd_share = 0;       ///< bridged or asymmetric
+  double flanks = 1;          ///< median of the smaller over the larger drop to both sides; an edge has 0
+  bool colour_known = false;  ///< the picture tells where the laser's colour is
+  double coloured_share = 1;  ///< of the points, where the laser's colour is
+};
+
+/// The edges met among the lines, which drop on one side only.
+struct EdgeCrowd {
+  double length = 0;           ///< px
+  double weighted_height = 0;  ///< grey levels times px
+  double height() const { return length > 0 ? weighted_height / length : 0.0; }
 };
 
 /// Scratch memory.
@@ -57,14 +47,32 @@ struct LineFilterWorkspace {
   LineMeasures measure;
   std::vector<float> scratch;
   std::vector<BadStretch> stretches;
-  std::vector<LineFacts> facts;
+  EdgeCrowd edges;                   ///< added up over the scales of one image
+  std::vector<std::uint8_t> colour;  ///< one a point: LaserPlace
   std::vector<LineRange> kept;
 };
 
-/// Measures width, intensity and flags of every point, then drops and cuts lines as said above. Lines of one
-/// image are judged together: `noise` is the image's, the stripes' width follows from the kernels' sigma.
+/// Measures width, intensity and flags of every point, cuts the lines as said above and drops those that are
+/// no stripes for themselves: `noise` is the image's, the stripes' width follows from the kernels' sigma.
+/// `facts` gets one entry a line that is left.
+/// `width_slack`: by how much more than max_width_ratio the measured width may differ from the kernels';
+/// above 1 where the line's own strength chose the scale, since glow widens the foot of a stripe, not its
+/// core.
 template <class T>
 void filter_lines(ImageView<T> image, const DerivativeKernels& kernels, double noise,
-                  const LineFilterOptions& options, LineFilterWorkspace& workspace, LineSet& lines);
+                  const LineFilterOptions& options, double width_slack, LineFilterWorkspace& workspace,
+                  LineSet& lines, std::vector<LineFacts>& facts);
+
+/// Lines of one scale.
+struct FilteredLines {
+  const DerivativeKernels* kernels = nullptr;
+  LineSet* lines = nullptr;
+  std::vector<LineFacts>* facts = nullptr;
+};
+
+/// Drops the lines that are too faint against the strong ones of the same image, whatever their scale, or
+/// against `least_height` grey levels where even the strongest is fainter.
+void drop_faint_lines(std::span<const FilteredLines> groups, double noise, const LineFilterOptions& options,
+                      double width_slack, double least_height, const EdgeCrowd& edges);
 
 }  // namespace lightstripe

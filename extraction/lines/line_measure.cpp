@@ -6,8 +6,8 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
+#include "extraction/kernels/width_rule.h"
 #include "extraction/lines/cross_profile.h"
 
 namespace lightstripe {
@@ -132,7 +132,7 @@ double median_of(std::vector<float>& values) {
 template <class T>
 void measure_points(ImageView<T> image, const DerivativeKernels& kernels, double noise, LineSet& lines,
                     LineMeasures& m) {
-  const double full_width = 2 * std::numbers::sqrt3 * kernels.sigma;
+  const double full_width = full_width_of(kernels.sigma);
   constexpr double kClipped = std::numeric_limits<T>::max() - 1;  // some cameras stop one level short
   m.contrast.resize(lines.points.size());
   lines.half_level_widths.resize(lines.points.size());

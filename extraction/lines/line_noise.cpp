@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "extraction/follow/line_point.h"
 #include "extraction/lines/cross_profile.h"
@@ -27,6 +28,9 @@ double ridge_grey(ImageView<T> image, const StripePoint& p, double fall) {
   const double across = (x - p.x) * p.normal_x + (y - p.y) * p.normal_y;
   return image(x, y) + fall * across * across;
 }
+
+/// Points of white noise share their error over 2 sqrt(pi) sigma along the line.
+constexpr double kSharedBySigma = 3.5449077;
 
 bool is_usable(const StripePoint& p) { return (p.flags & (kStripeBridged | kStripeSaturated)) == 0; }
 
@@ -56,27 +60,101 @@ double noise_on_ridge(ImageView<T> image, const LineSet& lines, const LineRange&
   return scratch.size() < kLeast ? background_noise : kToSigma * median_of(scratch);
 }
 
+namespace {
+
+double median_of_line(const LineSet& lines, const LineRange& r, double (*value)(const StripePoint&),
+                      std::vector<float>& scratch) {
+  scratch.clear();
+  for (std::size_t i = r.begin; i < r.end; i += sample_step(r))
+    scratch.push_back(static_cast<float>(value(lines.points[i])));
+  return median_of(scratch);
+}
+
+/// Photon noise alone, where a line is too short to measure its scatter: grey levels squared per grey level.
 template <class T>
-void predict_errors(ImageView<T> image, const DerivativeKernels& kernels, double background_noise,
-                    LineSet& lines, std::vector<float>& scratch) {
+double photon_noise(ImageView<T> image, const LineSet& lines, const LineRange& r, double background_noise,
+                    double typical, std::vector<float>& scratch) {
   // The first derivative's kernel sees the flanks: of a Gaussian stripe of its own scale, on average this
   // share of the peak's light, (2/3)^1.5.
   constexpr double kFlankShare = 0.5443;
-  const double background = background_noise * background_noise;
-  for (const LineRange& r : lines.lines) {
-    const double top = noise_on_ridge(image, lines, r, background_noise, scratch);
-    scratch.clear();
-    for (std::size_t i = r.begin; i < r.end; i += sample_step(r))
-      scratch.push_back(lines.points[i].intensity);
-    const double typical = std::max(1.0, double{median_of(scratch)});
-    const double added = kFlankShare * std::max(0.0, top * top - background) / typical;
-    for (std::size_t i = r.begin; i < r.end; ++i) {
-      StripePoint& p = lines.points[i];
-      const double noise = std::sqrt(background + added * std::max(0.0, static_cast<double>(p.intensity)));
-      p.sigma_px = centre_sigma(kernels, noise, p.strength);
-      // A bridged point is as good as the curve between its neighbours: far worse than a measured one.
-      if ((p.flags & kStripeBridged) != 0) p.sigma_px = std::max(5 * p.sigma_px, 0.1 * kernels.sigma);
-    }
+  const double top = noise_on_ridge(image, lines, r, background_noise, scratch);
+  return kFlankShare * std::max(0.0, top * top - background_noise * background_noise) / typical;
+}
+
+}  // namespace
+
+namespace {
+
+/// What a line's points have in common, px^2 where not said otherwise.
+struct LineErrors {
+  double intensity = 1;   ///< typical, grey levels
+  double background = 0;  ///< noise, grey levels
+  double photons = 0;     ///< at the typical intensity, beyond the background's noise
+  double grain = 0;       ///< speckle, texture
+  double row = 0;         ///< of a single row's centre
+};
+
+template <class T>
+LineErrors errors_of_line(ImageView<T> image, const DerivativeKernels& kernels, double background_noise,
+                          const LineSet& lines, LineRange& r, ErrorWorkspace& w) {
+  LineErrors e;
+  e.background = background_noise;
+  e.intensity =
+      std::max(1.0, median_of_line(
+                        lines, r, [](const StripePoint& p) { return double{p.intensity}; }, w.values));
+  const double strength =
+      std::max(1e-9, median_of_line(
+                         lines, r, [](const StripePoint& p) { return p.strength; }, w.values));
+  const double camera = std::pow(centre_sigma(kernels, background_noise, strength), 2);
+  r.shared_px = kSharedBySigma * kernels.sigma;
+  const RowScatter scatter = measure_row_scatter(image, kernels, lines, r, w.rows);
+  e.grain = scatter.grained_point(kernels.sigma);
+  const double photons = photon_noise(image, lines, r, background_noise, e.intensity, w.values);
+  e.photons = std::pow(centre_sigma(kernels, std::sqrt(photons * e.intensity), strength), 2);
+  e.row = kSharedBySigma * kernels.sigma * (camera + e.photons);
+  if (scatter.rows == 0) return e;
+  // Speckle makes the ridge noisy as well: then the rows alone decide. Without it the ridge knows better,
+  // unless the rows clearly disagree (clipping, which hides the ridge's noise).
+  const double white = scatter.white_point(kernels.sigma);
+  const double doubt = e.grain > 0 ? 0 : 3 * 1.7 / std::sqrt(scatter.rows) * white;
+  const double by_rows = std::max(0.0, white - camera - doubt);
+  e.photons = e.grain > 0 ? by_rows : std::max(e.photons, by_rows);
+  e.row = scatter.white_variance + scatter.grain_variance;
+  const double variance = std::max(1e-12, camera + e.photons + e.grain);
+  r.shared_px =
+      (kSharedBySigma * kernels.sigma * (camera + e.photons) + scatter.grained_density()) / variance;
+  return e;
+}
+
+/// Which share of a point's kernel lies beyond the picture's border, where the last row stands for all.
+template <class T>
+double share_outside(ImageView<T> image, double sigma, const StripePoint& p) {
+  const double along_x = std::max(std::abs(p.normal_y), 1e-3), along_y = std::max(std::abs(p.normal_x), 1e-3);
+  const double inside = std::min(std::min(p.x, image.width - 1 - p.x) / along_x,
+                                 std::min(p.y, image.height - 1 - p.y) / along_y);
+  return inside > 3 * sigma ? 0.0 : 0.5 * std::erfc((inside + 0.5) / (sigma * std::numbers::sqrt2));
+}
+
+double predicted_error(const LineErrors& e, const DerivativeKernels& kernels, const StripePoint& p,
+                       double outside) {
+  // A bridged point is as good as the curve between its neighbours: it has their scatter, and more.
+  const double own = centre_sigma(kernels, e.background, p.strength);
+  const double camera = (p.flags & kStripeBridged) == 0 ? own : std::max(5 * own, 0.1 * kernels.sigma);
+  // Photons are the noisier the dimmer the line is; speckle is not.
+  const double light = std::max(static_cast<double>(p.intensity), 0.1 * e.intensity);
+  return std::sqrt(camera * camera + e.photons * e.intensity / light + e.grain + outside * outside * e.row);
+}
+
+}  // namespace
+
+template <class T>
+void predict_errors(ImageView<T> image, const DerivativeKernels& kernels, double background_noise,
+                    LineSet& lines, ErrorWorkspace& w) {
+  for (LineRange& r : lines.lines) {
+    const LineErrors errors = errors_of_line(image, kernels, background_noise, lines, r, w);
+    for (std::size_t i = r.begin; i < r.end; ++i)
+      lines.points[i].sigma_px = predicted_error(errors, kernels, lines.points[i],
+                                                 share_outside(image, kernels.sigma, lines.points[i]));
   }
 }
 
@@ -85,8 +163,8 @@ template double noise_on_ridge<std::uint8_t>(ImageView8, const LineSet&, const L
 template double noise_on_ridge<std::uint16_t>(ImageView16, const LineSet&, const LineRange&, double,
                                               std::vector<float>&);
 template void predict_errors<std::uint8_t>(ImageView8, const DerivativeKernels&, double, LineSet&,
-                                           std::vector<float>&);
+                                           ErrorWorkspace&);
 template void predict_errors<std::uint16_t>(ImageView16, const DerivativeKernels&, double, LineSet&,
-                                            std::vector<float>&);
+                                            ErrorWorkspace&);
 
 }  // namespace lightstripe

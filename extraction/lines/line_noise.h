@@ -8,6 +8,7 @@
 #include "core/image.h"
 #include "extraction/kernels/kernels.h"
 #include "extraction/lines/line_set.h"
+#include "extraction/lines/row_scatter.h"
 
 namespace lightstripe {
 
@@ -18,9 +19,16 @@ template <class T>
 double noise_on_ridge(ImageView<T> image, const LineSet& lines, const LineRange& range,
                       double background_noise, std::vector<float>& scratch);
 
-/// Sets sigma_px of every point from its strength and the noise of background and ridge.
+/// Scratch memory.
+struct ErrorWorkspace {
+  RowScatterWorkspace rows;
+  std::vector<float> values;
+};
+
+/// Sets sigma_px of every point: the camera's noise by the point's strength, and the scatter of the rows
+/// along its line (photon noise, speckle, texture).
 template <class T>
 void predict_errors(ImageView<T> image, const DerivativeKernels& kernels, double background_noise,
-                    LineSet& lines, std::vector<float>& scratch);
+                    LineSet& lines, ErrorWorkspace& workspace);
 
 }  // namespace lightstripe

@@ -14,6 +14,7 @@ namespace lightstripe {
 struct LineRange {
   std::size_t begin = 0;
   std::size_t end = 0;
+  double shared_px = 0;  ///< length along the line over which its points share one error; 0: not known yet
   std::size_t size() const { return end - begin; }
 };
 

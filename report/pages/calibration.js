@@ -1,34 +1,43 @@
 // SPDX-FileCopyrightText: 2026 The lightstripe authors
 // SPDX-License-Identifier: Apache-2.0
 // Draws calibration.html from its JSON with Chart.js and three.js.
-'use strict';
-const data = JSON.parse(document.getElementById('data').textContent);
-const at = id => document.getElementById(id);
-const colors = ['#2563eb', '#ea580c', '#16a34a', '#9333ea', '#0891b2', '#be123c'];
+const signed = v => (Math.round(1000 * v) / 1000 || 0).toFixed(3);  // no -0.000
+// At least two digits that count: 0.0000 would be a promise.
+const mm = (v, digits = 4) => !(v > 0) ? '-' : v >= 10 ** (1 - digits) ? v.toFixed(digits) : v.toPrecision(2);
 
-function element(tag, text, parent, className) {
-  const e = document.createElement(tag);
-  if (text !== undefined) e.textContent = text;
-  if (className) e.className = className;
-  if (parent) parent.appendChild(e);
-  return e;
+// What was left out, in a few words for the header.
+function leftOut() {
+  const words = [];
+  data.stripes.forEach(s => {
+    if (s.found > s.agreeing) words.push(`${s.found - s.agreeing} of ${s.found} stripes of ${s.name} were left out`);
+  });
+  const lost = data.rejected.length, all = lost + data.used.length;
+  if (lost) words.push(`${lost} of ${all} pictures were left out, whole or in part`);
+  return words.join('; ');
 }
 
-function table(parent, header, rows) {
-  const t = element('table', undefined, parent);
-  const head = element('tr', undefined, t);
-  header.forEach(h => element('th', h, head));
-  rows.forEach(r => {
-    const line = element('tr', undefined, t);
-    r.forEach(c => element('td', c, line, typeof c === 'string' && isNaN(Number(c)) ? 'text' : ''));
+// Hides an empty part of the page with its heading and notes.
+function hide(id) {
+  for (let e = at(id); e; e = e.previousElementSibling) {
+    e.style.display = 'none';
+    if (e.tagName === 'H2') break;
+  }
+}
+
+// A field above the pictures that keeps those whose name, sensor or reason has the text in it.
+function addFilter(id) {
+  const box = at(id), field = element('input', undefined, undefined, 'filter');
+  field.placeholder = 'filter: sensor, picture or reason';
+  box.before(field);
+  field.addEventListener('input', () => {
+    const wanted = field.value.toLowerCase();
+    [...box.children].forEach(f => { f.style.display = f.textContent.toLowerCase().includes(wanted) ? '' : 'none'; });
   });
 }
 
-const signed = v => (Math.round(1000 * v) / 1000 || 0).toFixed(3);  // no -0.000
-const mm = (v, digits = 4) => v > 0 ? v.toFixed(digits) : '-';
-
 function showVerdict() {
-  at('verdict').textContent = data.usable ? 'Usable' : 'Not usable: ' + data.message;
+  const but = leftOut();
+  at('verdict').textContent = data.usable ? 'Usable' + (but ? ', but ' + but : '') : 'Not usable: ' + data.message;
   at('verdict').classList.add(data.usable ? 'good' : 'bad');
   data.warnings.forEach(w => element('div', w, at('warnings'), 'warning'));
   const s = at('summary');
@@ -185,12 +194,15 @@ function showRig() {
 }
 
 showVerdict();
-if (data.map.length) { showMap('shape', 'shape'); showMap('absolute', 'place'); }
-if (data.views.length) showViews();
-data.sensors.forEach(showResiduals);
-if (data.rig3d.cameras.length) showRig();
+if (data.map.length) { showMap('shape', 'shape'); showMap('absolute', 'place'); } else hide('maps');
+if (data.views.length) showViews(); else hide('views_box');
+if (data.residuals.length) data.sensors.forEach(showResiduals); else hide('residuals');
+if (data.rig3d.cameras.length) showRig(); else hide('rig3d');
 data.rejected.forEach(p => picture(at('rejected'), p));
 if (!data.rejected.length) element('p', 'None.', at('rejected'));
 data.used.forEach(p => picture(at('used'), p));
-table(at('sigma'), ['parameter', '1 sigma'], Object.entries(data.sigma).map(([k, v]) => [k, v.toPrecision(3)]));
+if (data.rejected.length > 3) addFilter('rejected');
+if (data.used.length > 3) addFilter('used');
+if (!Object.keys(data.sigma).length) hide('sigma_box');
+table(at('sigma'), ['parameter', '1 sigma'], Object.entries(data.sigma).map(([k, v]) => [k, v === null ? '-' : v.toPrecision(3)]));
 document.body.dataset.ready = 'yes';

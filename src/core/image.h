@@ -11,6 +11,11 @@
 
 namespace lightstripe {
 
+/// Levels of an image's `where`.
+struct LaserPlace {
+  static constexpr std::uint8_t kNone = 0, kFaint = 1, kSure = 2;
+};
+
 /// Pixels of somebody else (a cv::Mat, a line-scan camera's buffer, an array). `stride` counts elements, not
 /// bytes.
 template <class T>
@@ -19,13 +24,22 @@ struct ImageView {
   int width = 0;
   int height = 0;
   std::ptrdiff_t stride = 0;
+  /// Where light of the laser's colour was seen, one byte a pixel with the same stride (LaserPlace); null:
+  /// nobody knows, it may be anywhere.
+  const std::uint8_t* where = nullptr;
 
   const T* row(int y) const { return data + y * stride; }
   T operator()(int x, int y) const { return row(y)[x]; }
   bool empty() const { return width <= 0 || height <= 0; }
   bool contains(int x, int y) const { return x >= 0 && y >= 0 && x < width && y < height; }
   /// The part of `w` x `h` pixels that begins at (x, y), which has to lie inside.
-  ImageView crop(int x, int y, int w, int h) const { return {row(y) + x, w, h, stride}; }
+  ImageView crop(int x, int y, int w, int h) const {
+    return {row(y) + x, w, h, stride, where == nullptr ? nullptr : where + y * stride + x};
+  }
+  /// How sure the laser's colour is at a pixel; sure everywhere in a picture without colour.
+  std::uint8_t laser_colour(int x, int y) const {
+    return where == nullptr ? LaserPlace::kSure : where[y * stride + x];
+  }
 };
 
 /// Pixels owned, without padding between the rows.
@@ -34,12 +48,15 @@ struct Image {
   std::vector<T> pixels;
   int width = 0;
   int height = 0;
+  std::vector<std::uint8_t> where;  ///< as in ImageView; empty: nobody knows
 
   Image() = default;
   Image(int w, int h, T value = T{})
       : pixels(static_cast<std::size_t>(w) * static_cast<std::size_t>(h), value), width(w), height(h) {}
 
-  ImageView<T> view() const { return {pixels.data(), width, height, width}; }
+  ImageView<T> view() const {
+    return {pixels.data(), width, height, width, where.empty() ? nullptr : where.data()};
+  }
   operator ImageView<T>() const { return view(); }  // NOLINT(google-explicit-constructor): an owner is a view
   T* row(int y) { return pixels.data() + static_cast<std::ptrdiff_t>(y) * width; }
   const T* row(int y) const { return pixels.data() + static_cast<std::ptrdiff_t>(y) * width; }

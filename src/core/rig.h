@@ -6,6 +6,7 @@
 
 #include <array>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -57,8 +58,8 @@ struct RigQuality {
   double section_shape_sigma_mm =
       0;  ///< predicted, rms over the measuring area, after a rigid move; 0 = unknown
   double section_absolute_sigma_mm = 0;  ///< predicted, rms over the measuring area; 0 = unknown
-  double cross_validation_ratio =
-      0;                ///< sections by two halves of the views: difference over prediction; 0 = unknown
+  /// Sections by two halves of the views: difference over prediction; empty where it was not computed.
+  std::optional<double> cross_validation_ratio;
   std::string weakest;  ///< the least certain direction, in words
   std::vector<std::string> warnings;
 };
@@ -66,6 +67,7 @@ struct RigQuality {
 struct Rig {
   std::vector<Sensor> sensors;
   Motion motion;
+  std::optional<Rigid3> tool_from_rig{};  ///< where the rig sits on a robot's or CMM's tool, if it does
   RigQuality quality;
 };
 

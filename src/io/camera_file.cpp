@@ -2,8 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/camera_file.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "core/error.h"
 #include "io/atomic_file.h"
@@ -64,6 +67,38 @@ void set_distortion(Camera& camera, const std::vector<double>& terms, const Yaml
   std::copy(terms.begin(), terms.end(), camera.distortion.begin());
 }
 
+/// [fx 0 cx; 0 fy cy; 0 0 1], row by row.
+void check_matrix(const std::vector<double>& K, const YamlPlace& place) {
+  const double tiny = 1e-9 * (std::abs(K[0]) + std::abs(K[4]));
+  const auto is_zero = [&](std::size_t i) { return std::abs(K[i]) <= tiny; };
+  if (is_zero(2) && is_zero(5) && !is_zero(6) && !is_zero(7))
+    throw Error(place.file, "has a camera matrix written by columns (MATLAB's IntrinsicMatrix)",
+                "write it row by row: [fx, 0, cx, 0, fy, cy, 0, 0, 1]");
+  if (!is_zero(6) || !is_zero(7) || std::abs(K[8] - 1) > 1e-9)
+    throw Error(place.file, "has a camera matrix whose last row is not 0 0 1",
+                "write [fx, 0, cx, 0, fy, cy, 0, 0, 1]");
+  if (!is_zero(1) || !is_zero(3))
+    throw Error(place.file,
+                fmt::format("has a camera matrix with skew ({:.4g} px)", is_zero(1) ? K[3] : K[1]),
+                "calibrate without skew, or leave the camera out");
+}
+
+/// Fisheye models have four terms too, which must not pass for k1 k2 p1 p2.
+void refuse_fisheye(const YamlNode& root, const Camera& camera, const YamlPlace& place) {
+  constexpr double kMaxTangential = 0.05;  // a decentred lens has 0.001, a bad one 0.01
+  const std::string what_to_do = "calibrate with OpenCV's pinhole model (plumb_bob), or leave the camera out";
+  const YamlNode* flag = find(root, {"fisheye_model", "fisheye"});
+  if (flag && flag->text != "0" && flag->text != "false")
+    throw Error(place.file, "holds a camera of the fisheye model", what_to_do);
+  const double tangential = std::max(std::abs(camera.distortion[2]), std::abs(camera.distortion[3]));
+  if (tangential > kMaxTangential)
+    throw Error(place.file,
+                fmt::format("has tangential terms p1, p2 of {:.3g}, as no lens has: they look like a fisheye "
+                            "(equidistant) model's",
+                            tangential),
+                what_to_do);
+}
+
 /// OpenCV's FileStorage and ROS' camera_info differ in what stands beside these keys.
 Camera matrix_camera(const YamlNode& root, const YamlPlace& place) {
   const YamlNode* model = find(root, {"distortion_model"});
@@ -73,6 +108,7 @@ Camera matrix_camera(const YamlNode& root, const YamlPlace& place) {
   const auto K = numbers(given(root, {"camera_matrix", "cameraMatrix", "K", "M1"}, place), place);
   if (K.size() != 9)
     throw Error(place.file, "has a camera matrix that is not 3 x 3", "give 9 numbers row by row");
+  check_matrix(K, place);
   Camera camera;
   camera.width = number(find(root, {"image_width", "width"}), place);
   camera.height = number(find(root, {"image_height", "height"}), place);
@@ -83,6 +119,7 @@ Camera matrix_camera(const YamlNode& root, const YamlPlace& place) {
   const YamlNode* distortion = find(
       root, {"distortion_coefficients", "dist_coeffs", "distCoeffs", "distortionCoefficients", "D", "D1"});
   if (distortion) set_distortion(camera, numbers(*distortion, place), place);
+  refuse_fisheye(root, camera, place);
   return camera;
 }
 
@@ -111,7 +148,7 @@ Camera kalibr_camera(const YamlNode& root, const std::string& name, const YamlPl
 }
 
 Camera rig_camera(const std::string& path, const std::string& name) {
-  const Rig rig = read_rig(path);
+  const Rig rig = read_rig(path, RigUse::kCameras);
   for (const Sensor& sensor : rig.sensors)
     if (name.empty() || sensor.name == name) return sensor.camera;
   throw Error(path, "has no sensor " + name, "give one of its names behind the #");
@@ -121,6 +158,11 @@ Camera checked(Camera camera, const std::string& path) {
   if (!(camera.fx > 0 && camera.fy > 0))
     throw Error(path, "has a focal length that is not positive", "give px");
   const bool has_size = camera.width > 0 && camera.height > 0;
+  if (has_size && !(camera.cx > 0 && camera.cy > 0 && camera.cx < camera.width && camera.cy < camera.height))
+    throw Error(path,
+                fmt::format("has its principal point ({:.0f}, {:.0f}) outside the picture of {} x {} px",
+                            camera.cx, camera.cy, camera.width, camera.height),
+                "give the camera of this picture size, not cropped or scaled");
   if (has_size && !invertible_over_image(camera))
     throw Error(path, "has a distortion that folds over inside the image",
                 "calibrate with a leaner lens model");

@@ -5,14 +5,19 @@
 
 #include <cstdint>
 #include <functional>
+#include <span>
 
 #include "io/images.h"
 
 namespace lightstripe {
 
-/// The first picture of a few, spread over the sequence, that shows a colour decides: the line may not be
-/// there yet at the start of a scan. `look(index, chosen)` reads one with kAuto; pictures that give an Error
-/// are passed over.
+/// What most of a few pictures, spread over the sequence, are read as; those that show no colour abstain,
+/// because the line may not be in every picture. `look(index, chosen)` reads one with kAuto; pictures that
+/// give an Error are passed over.
 Channel decide_channel(std::int64_t count, const std::function<void(std::int64_t, Channel*)>& look);
+
+/// The votes of several pictures counted: the commonest of those that are not gray, the first one among
+/// equals; of one colour the "-clipped" form if a third of its votes are for it.
+Channel count_votes(std::span<const Channel> votes);
 
 }  // namespace lightstripe

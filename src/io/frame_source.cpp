@@ -79,6 +79,7 @@ class ImageFolder : public FrameSource {
 Channel decide_channel(std::int64_t count, const std::function<void(std::int64_t, Channel*)>& look) {
   constexpr std::int64_t kSamples = 8;
   const std::int64_t samples = std::min(kSamples, count);
+  std::vector<Channel> votes;
   for (std::int64_t i = 0; i < samples; ++i) {
     Channel chosen = Channel::kGray;
     try {
@@ -86,9 +87,31 @@ Channel decide_channel(std::int64_t count, const std::function<void(std::int64_t
     } catch (const Error&) {
       continue;  // told when the frame's turn comes
     }
-    if (chosen != Channel::kGray) return chosen;
+    votes.push_back(chosen);
   }
-  return Channel::kGray;
+  return count_votes(votes);
+}
+
+Channel count_votes(std::span<const Channel> votes) {
+  constexpr std::array<Channel, 3> kPlain = {Channel::kRedLaser, Channel::kGreenLaser, Channel::kBlueLaser},
+                                   kClipped = {Channel::kRedClipped, Channel::kGreenClipped,
+                                               Channel::kBlueClipped};
+  Channel best = Channel::kGray;
+  std::ptrdiff_t most = 0;
+  for (std::size_t k = 0; k < kPlain.size(); ++k) {
+    const auto plain = std::count(votes.begin(), votes.end(), kPlain.at(k)),
+               clipped = std::count(votes.begin(), votes.end(), kClipped.at(k));
+    if (plain + clipped <= most) continue;
+    most = plain + clipped;
+    best = 3 * clipped >= most ? kClipped.at(k) : kPlain.at(k);
+  }
+  return best;
+}
+
+Channel channel_of_pictures(const std::vector<fs::path>& files) {
+  return decide_channel(static_cast<std::int64_t>(files.size()), [&files](std::int64_t i, Channel* chosen) {
+    read_image(files[static_cast<std::size_t>(i)], Channel::kAuto, chosen);
+  });
 }
 
 std::unique_ptr<FrameSource> open_frames(const fs::path& base, const std::string& pattern, Channel channel) {

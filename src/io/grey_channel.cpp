@@ -7,17 +7,13 @@
 #include <cmath>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
+#include <string_view>
 
 #include "core/error.h"
+#include "io/laser_colour.h"
 
 namespace lightstripe {
 namespace {
-
-// A line of light covers at least this share of a picture; a few coloured pixels are noise or dead ones.
-constexpr double kPeakShare = 2e-4;
-constexpr int kMinPeakPixels = 16;
-// Colour fringes of demosaicing and a wrong white balance stay below this.
-constexpr double kMinPeak = 40;  // grey levels
 
 /// One of the planes B, G, R minus the larger of the other two, 0 if negative.
 cv::Mat excess(const std::array<cv::Mat, 3>& bgr, std::size_t plane) {
@@ -34,8 +30,8 @@ std::array<cv::Mat, 3> planes(const cv::Mat& picture) {
 }
 
 std::size_t plane_of(Channel channel) {
-  if (channel == Channel::kBlue || channel == Channel::kBlueExcess) return 0;
-  return channel == Channel::kGreen || channel == Channel::kGreenExcess ? 1 : 2;
+  const std::string_view name = enum_name(channel);
+  return name.starts_with("blue") ? 0 : name.starts_with("green") ? 1 : 2;
 }
 
 bool is_excess(Channel channel) {
@@ -43,50 +39,20 @@ bool is_excess(Channel channel) {
          channel == Channel::kBlueExcess;
 }
 
-/// How many pixels have each grey level. Four tables in turn: neighbours are often equal, and counting them
-/// in one place would wait for itself.
-std::array<std::int64_t, 256> histogram_of(const cv::Mat& grey) {
-  std::array<std::array<std::int32_t, 256>, 4> part{};
-  for (int y = 0; y < grey.rows; ++y) {
-    const auto* row = grey.ptr<std::uint8_t>(y);
-    for (int x = 0; x < grey.cols; ++x) ++part[static_cast<unsigned>(x) % 4][row[x]];
-  }
-  std::array<std::int64_t, 256> histogram{};
-  for (std::size_t level = 0; level < 256; ++level)
-    for (const auto& counts : part) histogram[level] += counts[level];
-  return histogram;
+bool is_laser(Channel channel) { return channel >= Channel::kRedLaser && channel <= Channel::kBlueClipped; }
+
+bool is_clipped(Channel channel) {
+  return channel == Channel::kRedClipped || channel == Channel::kGreenClipped ||
+         channel == Channel::kBlueClipped;
 }
 
-/// Grey level that a share kPeakShare of the pixels exceeds, minus the median.
-double peak_above_median(const cv::Mat& grey) {
-  const std::array<std::int64_t, 256> histogram = histogram_of(grey);
-  const auto level_reached_by = [&histogram](std::int64_t count) {
-    int level = 255;
-    for (std::int64_t above = 0; level > 0; --level) {
-      above += histogram[static_cast<std::size_t>(level)];
-      if (above >= count) break;
-    }
-    return level;
-  };
-  const auto total = static_cast<std::int64_t>(grey.total());
-  const auto bright =
-      std::max<std::int64_t>(kMinPeakPixels, std::llround(kPeakShare * static_cast<double>(total)));
-  return level_reached_by(std::min(bright, total)) - level_reached_by(total / 2 + 1);
-}
-
-/// Whether the line's own channel is clipped, so that the other channels catch up in the line's core and the
-/// excess has its light at the line's two edges only.
-bool is_hollow(const std::array<cv::Mat, 3>& bgr, std::size_t plane, double peak) {
-  constexpr double kClipped = 250, kDepth = 60;  // grey levels
-  constexpr int kWidestCore = 15;                // px
-  constexpr double kHollowShare = 0.1;
-  const cv::Mat light = excess(bgr, plane), clipped = bgr.at(plane) >= kClipped;
-  if (cv::countNonZero(clipped) < kMinPeakPixels) return false;
-  cv::Mat closed;
-  cv::morphologyEx(light, closed, cv::MORPH_CLOSE,
-                   cv::getStructuringElement(cv::MORPH_RECT, cv::Size(kWidestCore, kWidestCore)));
-  const cv::Mat hollow = clipped & (closed - light >= kDepth), bright = light >= 0.5 * peak;
-  return cv::countNonZero(hollow) > kHollowShare * cv::countNonZero(bright);
+/// Half of the laser's own plane and a quarter of both others: where the one is clipped, the others still
+/// show the line's middle.
+cv::Mat clipped_light(const std::array<cv::Mat, 3>& bgr, std::size_t plane) {
+  cv::Mat others, light;
+  cv::addWeighted(bgr.at((plane + 1) % 3), 0.5, bgr.at((plane + 2) % 3), 0.5, 0, others);
+  cv::addWeighted(bgr.at(plane), 0.5, others, 0.5, 0, light);
+  return light;
 }
 
 template <class T>
@@ -111,16 +77,13 @@ void check_grey_channel(Channel channel, const std::string& file) {
 }
 
 ChannelChoice strongest_channel(const cv::Mat& picture) {
-  ChannelChoice best;
-  if (picture.channels() == 1) return best;
-  const auto bgr = planes(picture);
-  for (const Channel channel : {Channel::kRedExcess, Channel::kGreenExcess, Channel::kBlueExcess}) {
-    const double peak = peak_above_median(excess(bgr, plane_of(channel)));
-    if (peak >= kMinPeak && peak > best.peak) best = {channel, peak};
-  }
-  // The grey picture still has the line's light in its middle.
-  if (best.peak > 0 && is_hollow(bgr, plane_of(best.channel), best.peak)) return {Channel::kGray, best.peak};
-  return best;
+  if (picture.channels() == 1) return {};
+  constexpr std::array<Channel, 3> kPlain = {Channel::kBlueLaser, Channel::kGreenLaser, Channel::kRedLaser},
+                                   kClipped = {Channel::kBlueClipped, Channel::kGreenClipped,
+                                               Channel::kRedClipped};
+  const LaserVote vote = vote_for_laser(planes(picture));
+  if (vote.plane < 0) return {};
+  return {(vote.clipped ? kClipped : kPlain).at(static_cast<std::size_t>(vote.plane)), vote.score};
 }
 
 Image8 grey_values(const cv::Mat& picture, Channel channel, const std::string& file) {
@@ -128,6 +91,13 @@ Image8 grey_values(const cv::Mat& picture, Channel channel, const std::string& f
   if (picture.channels() == 1) {
     check_grey_channel(channel, file);
     return image8_of(picture);
+  }
+  if (is_laser(channel)) {
+    const auto bgr = planes(picture);
+    const std::size_t plane = plane_of(channel);
+    Image8 image = image8_of(is_clipped(channel) ? clipped_light(bgr, plane) : bgr.at(plane));
+    image.where = where_laser_colour(bgr, plane);
+    return image;
   }
   cv::Mat grey;
   if (channel == Channel::kGray) {

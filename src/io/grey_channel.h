@@ -12,13 +12,11 @@ namespace lightstripe {
 
 struct ChannelChoice {
   Channel channel = Channel::kGray;
-  double peak =
-      0;  ///< how far the colour excess of the brightest pixels stands out, grey levels; 0 for grey pictures
+  double score = 0;  ///< how much in the picture is like a line of that colour; 0: nothing
 };
 
-/// What Channel::kAuto means for this picture (8-bit grey or BGR): the excess whose brightest pixels stand
-/// out most above its median; gray where none stands out, or where the line is so overexposed that its excess
-/// is hollow.
+/// What Channel::kAuto means for this picture (8-bit grey or BGR): the colour in which most of it is like a
+/// line of light; gray where none is. Where the line's own plane is clipped, the "-clipped" channel.
 ChannelChoice strongest_channel(const cv::Mat& picture);
 
 /// The channel (not kAuto) of an 8-bit grey or BGR picture. An excess of a picture without colour is an Error

@@ -19,11 +19,28 @@
 namespace lightstripe {
 
 /// Which grey value a colour pixel gives. Excess = channel minus the larger of the other two, 0 if negative.
-/// Auto: grey images as they are; colour images by the excess channel with the strongest bright peaks (the
-/// laser's colour).
-enum class Channel { kAuto, kGray, kRed, kGreen, kBlue, kRedExcess, kGreenExcess, kBlueExcess };
+/// "-laser": the channel itself, and the image's `where` says where its excess is: the excess tells where the
+/// laser is, the raw channel how exactly. "-clipped": the same with half of the channel and a quarter of both
+/// others, for lines so bright that the channel is clipped. Auto: grey images as they are; colour images by
+/// the colour of what is most like a line (-laser or -clipped), gray where nothing is.
+enum class Channel {
+  kAuto,
+  kGray,
+  kRed,
+  kGreen,
+  kBlue,
+  kRedExcess,
+  kGreenExcess,
+  kBlueExcess,
+  kRedLaser,
+  kGreenLaser,
+  kBlueLaser,
+  kRedClipped,
+  kGreenClipped,
+  kBlueClipped
+};
 
-constexpr std::array<EnumName<Channel>, 8> enum_names(Channel) {
+constexpr std::array<EnumName<Channel>, 14> enum_names(Channel) {
   return {{{Channel::kAuto, "auto"},
            {Channel::kGray, "gray"},
            {Channel::kRed, "red"},
@@ -31,7 +48,13 @@ constexpr std::array<EnumName<Channel>, 8> enum_names(Channel) {
            {Channel::kBlue, "blue"},
            {Channel::kRedExcess, "red-excess"},
            {Channel::kGreenExcess, "green-excess"},
-           {Channel::kBlueExcess, "blue-excess"}}};
+           {Channel::kBlueExcess, "blue-excess"},
+           {Channel::kRedLaser, "red-laser"},
+           {Channel::kGreenLaser, "green-laser"},
+           {Channel::kBlueLaser, "blue-laser"},
+           {Channel::kRedClipped, "red-clipped"},
+           {Channel::kGreenClipped, "green-clipped"},
+           {Channel::kBlueClipped, "blue-clipped"}}};
 }
 
 /// Decodes a picture. An Error for a file that is missing, empty, truncated, no image, or larger than 2^28
@@ -43,9 +66,20 @@ Image8 read_image(const std::filesystem::path& path, Channel channel = Channel::
 /// As read_image; with kAuto also tells which channel it took, so that a sequence can stay with it.
 Image8 read_image(const std::filesystem::path& path, Channel channel, Channel* chosen);
 
+/// What most of up to eight of the pictures, spread over all, are read as with kAuto; those that show no
+/// colour abstain. One choice for a session, so that every picture is measured alike.
+Channel channel_of_pictures(const std::vector<std::filesystem::path>& files);
+
 /// As read_image, but 16-bit grey pictures keep their bits (colour is reduced to 8). With kAuto `chosen`, if
 /// not null, tells which channel it took.
 GreyImage read_grey_image(const std::filesystem::path& path, Channel channel, Channel* chosen = nullptr);
+
+/// A picture as people see it: interleaved 8-bit RGB, grey ones with three equal channels.
+struct RgbImage {
+  std::vector<std::uint8_t> pixels;
+  int width = 0, height = 0;
+};
+RgbImage read_rgb_image(const std::filesystem::path& path);
 
 /// PNG (or by extension), through AtomicFile.
 void write_image(const std::filesystem::path& path, ImageView8 image);
@@ -93,7 +127,7 @@ class FrameSource {
 };
 
 /// Opens what a scan's `frames:` names. With Channel::kAuto up to eight readable frames spread over the
-/// sequence decide for all. Whether each frame can be read shows when it is read.
+/// sequence vote, and all are read the same way. Whether each frame can be read shows when it is read.
 std::unique_ptr<FrameSource> open_frames(const std::filesystem::path& base, const std::string& pattern,
                                          Channel channel);
 

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // A picture file -> grey values.
 #include <fmt/format.h>
-#include <opencv2/imgcodecs.hpp>
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
 #include <optional>
 
 #include "core/error.h"
@@ -12,6 +13,7 @@
 #include "io/grey_channel.h"
 #include "io/image_header.h"
 #include "io/images.h"
+#include "io/opencv_codecs.h"
 #include "io/png_grey.h"
 
 namespace lightstripe {
@@ -35,18 +37,13 @@ void check_header(const ImageHeader& header, const std::string& name) {
 /// Grey or BGR, 8 or 16 bits, alpha dropped, not turned by EXIF or TIFF's Orientation. A white that the file
 /// tells goes into the header.
 cv::Mat decoded(std::string_view bytes, const std::string& name, ImageHeader& header) {
-  cv::Mat picture;
   if (header.format == ImageFormat::kTiff) {
     TiffPicture tiff = decode_tiff(bytes, name);
     header.max_value = tiff.white;
     return std::move(tiff.pixels);
   }
-  try {
-    const cv::Mat buffer(1, static_cast<int>(bytes.size()), CV_8UC1, const_cast<char*>(bytes.data()));
-    picture = cv::imdecode(buffer, cv::IMREAD_ANYDEPTH | cv::IMREAD_ANYCOLOR | cv::IMREAD_IGNORE_ORIENTATION);
-  } catch (const cv::Exception&) {
-    picture.release();
-  }
+  const cv::Mat buffer(1, static_cast<int>(bytes.size()), CV_8UC1, const_cast<char*>(bytes.data()));
+  cv::Mat picture = opencv_codecs().decode(buffer);
   if (picture.empty()) throw Error(name, "cannot be decoded, its content is damaged", kExportAgain);
   if (picture.depth() != CV_8U && picture.depth() != CV_16U)
     throw Error(name, "has neither 8 nor 16 bits a channel", "convert it to 8 or 16 bits");
@@ -122,6 +119,18 @@ Image8 read_image(const std::filesystem::path& path, Channel channel, Channel* c
 
 GreyImage read_grey_image(const std::filesystem::path& path, Channel channel, Channel* chosen) {
   return decode_picture(read_file(path), path.string(), channel, Bits::kKept, chosen);
+}
+
+RgbImage read_rgb_image(const std::filesystem::path& path) {
+  const std::string bytes = read_file(path), name = path.string();
+  if (bytes.empty()) throw Error(name, "is empty", kExportAgain);
+  ImageHeader header = inspect_image(bytes);
+  check_header(header, name);
+  cv::Mat picture = decoded(bytes, name, header);
+  if (picture.depth() == CV_16U) picture = scaled_to_8_bits(picture, header);
+  cv::cvtColor(picture, picture, picture.channels() == 1 ? cv::COLOR_GRAY2RGB : cv::COLOR_BGR2RGB);
+  const auto* first = picture.ptr<std::uint8_t>();
+  return {{first, first + picture.total() * 3}, picture.cols, picture.rows};
 }
 
 }  // namespace lightstripe

@@ -68,15 +68,18 @@ CameraFields camera_fields(const Camera& camera) {
           std::vector<double>(begin, begin + static_cast<std::ptrdiff_t>(terms))};
 }
 
+TransformFields transform_fields(const Rigid3& pose) {
+  const Eigen::Quaterniond& q = pose.rotation;
+  return {std::array<double, 4>{q.w(), q.x(), q.y(), q.z()}, pose.translation};
+}
+
 RigSensorFields sensor_fields(const Sensor& sensor) {
   RigSensorFields fields;
   fields.name = sensor.name;
   fields.image_size = {sensor.camera.width, sensor.camera.height};
   fields.camera = camera_fields(sensor.camera);
   for (const Plane& plane : sensor.laser_planes) fields.laser_planes.push_back({plane.normal, plane.offset});
-  const Eigen::Quaterniond& q = sensor.rig_from_camera.rotation;
-  fields.rig_from_camera =
-      TransformFields{std::array<double, 4>{q.w(), q.x(), q.y(), q.z()}, sensor.rig_from_camera.translation};
+  fields.rig_from_camera = transform_fields(sensor.rig_from_camera);
   if (sensor.depth_range_mm[1] > 0) fields.depth_range = sensor.depth_range_mm;
   return fields;
 }
@@ -117,6 +120,7 @@ std::string rig_to_yaml(const Rig& rig) {
   fields.format = kRigFormat;
   for (const Sensor& sensor : rig.sensors) fields.sensors.push_back(sensor_fields(sensor));
   if (rig.motion.type != MotionType::kNone) fields.motion = motion_fields(rig.motion);
+  if (rig.tool_from_rig) fields.tool_from_rig = transform_fields(*rig.tool_from_rig);
   fields.quality.quality = rig.quality;
   return dump_yaml(fields);
 }

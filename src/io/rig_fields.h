@@ -94,6 +94,7 @@ struct RigFields {
   std::optional<std::string> format;
   std::vector<RigSensorFields> sensors;
   std::optional<RigMotionFields> motion;
+  std::optional<TransformFields> tool_from_rig;
   QualityFields quality;
 };
 template <class V>
@@ -101,6 +102,7 @@ void visit_fields(V&& v, RigFields& o) {
   v("format", o.format);
   v("sensors", o.sensors);
   v("motion", o.motion);
+  v("tool_from_rig", o.tool_from_rig);
   v("quality", o.quality);
 }
 

@@ -82,7 +82,7 @@ Rigid3 checked_transform(const TransformFields& fields, const Place& place) {
           (place / "translation").given(fields.translation)};
 }
 
-Sensor checked_sensor(const RigSensorFields& fields, const Place& place) {
+Sensor checked_sensor(const RigSensorFields& fields, RigUse use, const Place& place) {
   Sensor sensor;
   sensor.name = (place / "name").given(fields.name);
   (place / "name").require(!sensor.name.empty(), "is empty", "give each sensor a name");
@@ -93,7 +93,9 @@ Sensor checked_sensor(const RigSensorFields& fields, const Place& place) {
                "give width and height in px");
   sensor.camera = checked_camera((place / "camera").given(fields.camera), size, place / "camera");
   (place / "laser_planes")
-      .require(!fields.laser_planes.empty(), "is missing or empty", "list normal and offset of each");
+      .require(use == RigUse::kCameras || !fields.laser_planes.empty(), "is missing or empty",
+               "list normal and offset of each; a camera calibrated with `laser: none` needs a session with "
+               "the laser on");
   for (std::size_t i = 0; i < fields.laser_planes.size(); ++i)
     sensor.laser_planes.push_back(
         checked_plane(fields.laser_planes[i], place / ("laser_planes[" + std::to_string(i) + "]")));
@@ -128,7 +130,7 @@ Motion checked_motion(const RigMotionFields& fields, const Place& place) {
 
 }  // namespace
 
-Rig read_rig(const std::filesystem::path& path) {
+Rig read_rig(const std::filesystem::path& path, RigUse use) {
   RigFields fields;
   read_yaml(path, fields);
   const Place place{path.string(), ""};
@@ -140,12 +142,14 @@ Rig read_rig(const std::filesystem::path& path) {
   std::set<std::string> names;
   for (std::size_t i = 0; i < fields.sensors.size(); ++i) {
     const Place sensor = place / ("sensors[" + std::to_string(i) + "]");
-    rig.sensors.push_back(checked_sensor(fields.sensors[i], sensor));
+    rig.sensors.push_back(checked_sensor(fields.sensors[i], use, sensor));
     (sensor / "name")
         .require(names.insert(rig.sensors.back().name).second, "is the name of an earlier sensor",
                  "give each its own name");
   }
   if (fields.motion) rig.motion = checked_motion(*fields.motion, place / "motion");
+  if (fields.tool_from_rig)
+    rig.tool_from_rig = checked_transform(*fields.tool_from_rig, place / "tool_from_rig");
   rig.quality = fields.quality.quality;
   return rig;
 }

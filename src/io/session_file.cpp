@@ -8,59 +8,20 @@
 #include "core/error.h"
 #include "io/moving_part.h"
 #include "io/output_guard.h"
+#include "io/session_target.h"
 
 namespace lightstripe {
 namespace {
 
-constexpr int kMaxCorners = 1000;     // a side
 constexpr int kMaxLaserPlanes = 100;  // a sensor
 
-/// `square: 10.0` or `square: [10.0, 10.1]`, mm.
-struct SquareSize {
-  double x = 0, y = 0;
-};
-
-void read_field(const detail::YamlNode& node, SquareSize& size, const detail::YamlPlace& place) {
-  std::array<double, 2> sides{};
-  if (node.kind == detail::YamlNode::Kind::kSequence) {
-    detail::read_field(node, sides, place);
-  } else {
-    detail::read_field(node, sides[0], place);
-    sides[1] = sides[0];
-  }
-  size = {sides[0], sides[1]};
-}
-
-void write_field(detail::YamlNode& node, const SquareSize& size) {
-  if (size.x == size.y) {
-    detail::write_field(node, size.x);
-  } else {
-    detail::write_field(node, std::array<double, 2>{size.x, size.y});
-  }
-}
-
 /// The file as it is written; what is required is optional here and asked for afterwards.
-struct TargetFields {
-  TargetType type = TargetType::kCheckerboard;
-  std::optional<std::array<int, 2>> inner_corners;
-  std::optional<SquareSize> square;
-  std::optional<double> marker;
-  std::optional<std::string> dictionary;
-};
-template <class V>
-void visit_fields(V&& v, TargetFields& o) {
-  v("type", o.type);
-  v("inner_corners", o.inner_corners);
-  v("square", o.square);
-  v("marker", o.marker);
-  v("dictionary", o.dictionary);
-}
-
 struct SensorFields {
   std::optional<std::string> name, board, laser;
   std::optional<int> laser_planes;
   std::optional<std::string> camera;
   std::optional<bool> camera_fixed;
+  std::optional<std::string> board_only, bed, heights;
 };
 template <class V>
 void visit_fields(V&& v, SensorFields& o) {
@@ -70,11 +31,22 @@ void visit_fields(V&& v, SensorFields& o) {
   v("laser_planes", o.laser_planes);
   v("camera", o.camera);
   v("camera_fixed", o.camera_fixed);
+  v("board_only", o.board_only);
+  v("bed", o.bed);
+  v("heights", o.heights);
+}
+
+/// How a session says what moves; `poses` become the rig's place on the tool, not a Motion.
+enum class SessionMotionType { kLinear, kRotary, kPoses };
+constexpr std::array<EnumName<SessionMotionType>, 3> enum_names(SessionMotionType) {
+  return {{{SessionMotionType::kLinear, "linear"},
+           {SessionMotionType::kRotary, "rotary"},
+           {SessionMotionType::kPoses, "poses"}}};
 }
 
 struct MotionFields {
-  std::optional<MotionType> type;
-  std::optional<std::string> sensor, board, travel;
+  std::optional<SessionMotionType> type;
+  std::optional<std::string> sensor, board, travel, file;
   MovingPart moves = MovingPart::kRig;
 };
 template <class V>
@@ -83,6 +55,7 @@ void visit_fields(V&& v, MotionFields& o) {
   v("sensor", o.sensor);
   v("board", o.board);
   v("travel", o.travel);
+  v("file", o.file);
   v("moves", o.moves);
 }
 
@@ -105,50 +78,47 @@ void visit_fields(V&& v, SessionFields& o) {
   v("calibration", o.calibration);
 }
 
-/// Complaints about what was read, by file and key.
-struct Checker {
-  std::string file;
+/// Known heights need both files, and boards or a camera for the intrinsics.
+void check_heights(const SensorFields& fields, const std::string& key, const Checker& check) {
+  check.require(fields.bed.has_value() == fields.heights.has_value(), key + (fields.bed ? "heights" : "bed"),
+                "is missing", "give bed (a picture of the board on the bed) and heights (image,height_mm)");
+  if (!fields.bed) return;
+  check.text(fields.bed, key + "bed");
+  check.text(fields.heights, key + "heights");
+  check.require(fields.board || (fields.camera && fields.camera_fixed.value_or(true)), key + "camera",
+                "is missing", "give the camera's file, or board: pictures of boards to calibrate it by");
+  check.require(fields.laser_planes.value_or(1) == 1, key + "laser_planes", "is not 1",
+                "known heights calibrate one laser plane");
+}
 
-  void require(bool holds, const std::string& key, const char* what_is_wrong,
-               const std::string& what_to_do) const {
-    if (!holds) throw Error(file + ": " + key, what_is_wrong, what_to_do);
-  }
-  template <class T>
-  T given(const std::optional<T>& value, const std::string& key, const std::string& example = "") const {
-    require(value.has_value(), key, "is missing", example.empty() ? "give it" : "give it, e.g. " + example);
-    return *value;
-  }
-  std::string text(const std::optional<std::string>& value, const std::string& key) const {
-    require(!given(value, key).empty(), key, "is empty", "give a text");
-    return *value;
-  }
-};
-
-Target checked_target(const std::optional<TargetFields>& fields, const Checker& check) {
-  const TargetFields given =
-      check.given(fields, "target", "target: {type: checkerboard, inner_corners: [11, 8], square: 10.0}");
-  const auto [columns, rows] = check.given(given.inner_corners, "target.inner_corners",
-                                           "inner_corners: [11, 8] for a board of 12 x 9 squares");
-  for (const int corners : {columns, rows}) {
-    check.require(
-        corners >= 2 && corners <= kMaxCorners, "target.inner_corners", "is out of range",
-        "count the corners between the squares along each side, 2 to " + std::to_string(kMaxCorners));
-  }
-  const SquareSize square = check.given(given.square, "target.square", "square: 10.0 for 10 mm");
-  check.require(square.x > 0 && square.y > 0, "target.square", "is not positive",
-                "give the side of a square in mm");
-  Target target{given.type, columns, rows, square.x, square.y};
-  if (given.type == TargetType::kCheckerboard) {
-    check.require(!given.marker && !given.dictionary, "target",
-                  "has marker or dictionary, which a checkerboard has not",
-                  "say type: charuco, or leave them out");
-    return target;
-  }
-  target.marker_mm = check.given(given.marker, "target.marker");
-  check.require(target.marker_mm > 0 && target.marker_mm < std::min(square.x, square.y), "target.marker",
-                "is no side of a marker within a square", "give it in mm, smaller than square");
-  if (given.dictionary) target.dictionary = *given.dictionary;
-  return target;
+SessionSensor checked_sensor(const SensorFields& fields, const std::string& key, const Checker& check) {
+  SessionSensor sensor;
+  sensor.name = check.text(fields.name, key + "name");
+  check_sensor_name(sensor.name, check.file + ": " + key + "name");
+  check.require(sensor.name != "rig" && sensor.name != "tool", key + "name",
+                "is a reserved name (poses may be `of: rig` or `of: tool`)", "choose another name");
+  sensor.laser_planes = fields.laser_planes.value_or(1);
+  check.require(sensor.laser_planes >= 1 && sensor.laser_planes <= kMaxLaserPlanes, key + "laser_planes",
+                "is out of range", "give 1 to " + std::to_string(kMaxLaserPlanes));
+  check_heights(fields, key, check);
+  sensor.bed = fields.bed;
+  sensor.heights = fields.heights;
+  if (!fields.bed || fields.board) sensor.board = check.text(fields.board, key + "board");
+  if (fields.laser) check.text(fields.laser, key + "laser");
+  if (fields.board_only) check.text(fields.board_only, key + "board_only");
+  const bool none = fields.laser == "none";
+  check.require(!none || (!fields.laser_planes && !fields.board_only), key + "laser",
+                "is none, so that laser_planes and board_only say nothing", "leave them out");
+  sensor.no_laser = none || (fields.bed && !fields.laser);
+  if (!sensor.no_laser) sensor.laser = fields.laser;
+  if (none && !fields.bed) sensor.laser_planes = 0;
+  sensor.board_only = fields.board_only;
+  if (fields.camera) check.text(fields.camera, key + "camera");
+  check.require(fields.camera || !fields.camera_fixed, key + "camera_fixed", "says nothing without camera",
+                "give the camera's file, or leave it out");
+  sensor.camera = fields.camera;
+  sensor.camera_fixed = fields.camera_fixed.value_or(true);
+  return sensor;
 }
 
 std::vector<SessionSensor> checked_sensors(const std::vector<SensorFields>& fields, const Checker& check) {
@@ -158,21 +128,9 @@ std::vector<SessionSensor> checked_sensors(const std::vector<SensorFields>& fiel
   std::set<std::string> names;
   for (std::size_t i = 0; i < fields.size(); ++i) {
     const std::string key = "sensors[" + std::to_string(i) + "].";
-    const std::string name = check.text(fields[i].name, key + "name");
-    check_sensor_name(name, check.file + ": " + key + "name");
-    check.require(name != "rig", key + "name", "is a reserved name (poses may be `of: rig`)",
-                  "choose another name");
-    check.require(names.insert(name).second, key + "name", "is the name of an earlier sensor",
+    sensors.push_back(checked_sensor(fields[i], key, check));
+    check.require(names.insert(sensors.back().name).second, key + "name", "is the name of an earlier sensor",
                   "give each its own name");
-    const int planes = fields[i].laser_planes.value_or(1);
-    check.require(planes >= 1 && planes <= kMaxLaserPlanes, key + "laser_planes", "is out of range",
-                  "give 1 to " + std::to_string(kMaxLaserPlanes));
-    if (fields[i].laser) check.text(fields[i].laser, key + "laser");
-    if (fields[i].camera) check.text(fields[i].camera, key + "camera");
-    check.require(fields[i].camera || !fields[i].camera_fixed, key + "camera_fixed",
-                  "says nothing without camera", "give the camera's file, or leave it out");
-    sensors.push_back({name, check.text(fields[i].board, key + "board"), fields[i].laser, planes,
-                       fields[i].camera, fields[i].camera_fixed.value_or(true)});
   }
   return sensors;
 }
@@ -183,8 +141,18 @@ SessionMotion checked_motion(const MotionFields& fields, const std::vector<Sessi
   bool known = false;
   for (const SessionSensor& entry : sensors) known = known || entry.name == sensor;
   check.require(known, "motion.sensor", "names no sensor of this session", "use a name from sensors");
-  return {check.given(fields.type, "motion.type"), sensor, check.text(fields.board, "motion.board"),
-          check.text(fields.travel, "motion.travel"), fields.moves == MovingPart::kRig};
+  check.require(!fields.file, "motion.file", "belongs to poses", "give board and travel, or type: poses");
+  const bool rotary = *fields.type == SessionMotionType::kRotary;
+  return {rotary ? MotionType::kRotary : MotionType::kLinear, sensor,
+          check.text(fields.board, "motion.board"), check.text(fields.travel, "motion.travel"),
+          fields.moves == MovingPart::kRig};
+}
+
+/// The file of the tool's poses.
+std::string checked_tool_poses(const MotionFields& fields, const Checker& check) {
+  check.require(!fields.board && !fields.travel, "motion", "of type poses has board or travel",
+                "give file only: the poses belong to the sensors' board pictures");
+  return check.text(fields.file, "motion.file");
 }
 
 }  // namespace
@@ -195,9 +163,16 @@ Session read_session(const std::filesystem::path& path) {
   const Checker check{path.string()};
   Session session;
   session.folder = path.parent_path();
-  session.target = checked_target(fields.target, check);
+  session.target = checked_target(fields.target, session.folder, check);
+  if (session.target.type == TargetType::kAprilgrid) session.aprilgrid_file = *fields.target->file;
   session.sensors = checked_sensors(fields.sensors, check);
-  if (fields.motion) session.motion = checked_motion(*fields.motion, session.sensors, check);
+  if (fields.motion) {
+    const bool poses = check.given(fields.motion->type, "motion.type") == SessionMotionType::kPoses;
+    if (poses)
+      session.tool_poses = checked_tool_poses(*fields.motion, check);
+    else
+      session.motion = checked_motion(*fields.motion, session.sensors, check);
+  }
   if (fields.up) session.up = *fields.up;
   check.require(session.up.norm() > 1e-9, "up", "is a zero vector",
                 "point it up in the first sensor's camera frame");
@@ -210,28 +185,55 @@ Session read_session(const std::filesystem::path& path) {
 std::string session_to_yaml(const Session& session) {
   SessionFields fields;
   const Target& target = session.target;
-  fields.target = TargetFields{target.type, std::array<int, 2>{target.columns, target.rows},
-                               SquareSize{target.pitch_x, target.pitch_y}, std::nullopt, std::nullopt};
-  if (target.type == TargetType::kCharuco) {
-    fields.target->marker = target.marker_mm;
-    fields.target->dictionary = target.dictionary;
-  }
+  fields.target = target_fields(target, session.aprilgrid_file);
   for (const SessionSensor& sensor : session.sensors) {
-    fields.sensors.push_back(
-        {sensor.name, sensor.board, sensor.laser, std::nullopt, sensor.camera, std::nullopt});
+    SensorFields entry;
+    entry.name = sensor.name;
+    if (!sensor.board.empty()) entry.board = sensor.board;
+    entry.laser = sensor.laser;
+    if (sensor.no_laser) entry.laser = "none";
+    entry.camera = sensor.camera;
+    entry.board_only = sensor.board_only;
+    entry.bed = sensor.bed;
+    entry.heights = sensor.heights;
+    fields.sensors.push_back(std::move(entry));
     if (!sensor.camera_fixed) fields.sensors.back().camera_fixed = false;
-    if (sensor.laser_planes != 1) fields.sensors.back().laser_planes = sensor.laser_planes;
+    if (sensor.laser_planes > 1) fields.sensors.back().laser_planes = sensor.laser_planes;
   }
   if (session.motion) {
     const SessionMotion& motion = *session.motion;
-    fields.motion =
-        MotionFields{motion.type, motion.sensor, motion.board, motion.travel, moving_part(motion.rig_moves)};
+    fields.motion = MotionFields{
+        motion.type == MotionType::kRotary ? SessionMotionType::kRotary : SessionMotionType::kLinear,
+        motion.sensor,
+        motion.board,
+        motion.travel,
+        std::nullopt,
+        moving_part(motion.rig_moves)};
+  }
+  if (session.tool_poses) {
+    fields.motion.emplace();
+    fields.motion->type = SessionMotionType::kPoses;
+    fields.motion->file = session.tool_poses;
   }
   fields.up = session.up;
   if (session.channel != Channel::kAuto) fields.channel = session.channel;
   fields.extraction = session.extraction;
   fields.calibration = session.calibration;
   return dump_yaml(fields);
+}
+
+Target read_target(const std::string& yaml_or_file, const std::filesystem::path& folder,
+                   std::string* aprilgrid_file) {
+  if (!yaml_or_file.starts_with("{")) {
+    const Session session = read_session(yaml_or_file);
+    if (aprilgrid_file) *aprilgrid_file = session.aprilgrid_file;
+    return session.target;
+  }
+  TargetFields fields;
+  const detail::YamlPlace place{"--target", ""};
+  detail::read_field(detail::parse_yaml(yaml_or_file, place), fields, place);
+  if (aprilgrid_file) *aprilgrid_file = fields.file.value_or("");
+  return checked_target(fields, folder, Checker{"--target"});
 }
 
 }  // namespace lightstripe

@@ -22,8 +22,12 @@ struct SessionSensor {
   std::string board;                 ///< file pattern, laser off (or on, if `laser` is left out)
   std::optional<std::string> laser;  ///< file pattern, same poses, laser on
   int laser_planes = 1;
-  std::optional<std::string> camera{};  ///< file of known intrinsics, see read_camera_file()
-  bool camera_fixed = true;             ///< false: they are start values only
+  std::optional<std::string> camera{};      ///< file of known intrinsics, see read_camera_file()
+  bool camera_fixed = true;                 ///< false: they are start values only
+  bool no_laser = false;                    ///< `laser: none`: the boards calibrate the camera alone
+  std::optional<std::string> board_only{};  ///< file pattern of further boards, without laser
+  std::optional<std::string> bed{};         ///< picture of one board lying flat on the bed
+  std::optional<std::string> heights{};     ///< table image,height_mm: the laser on blocks over the bed
 };
 
 struct SessionMotion {
@@ -38,15 +42,21 @@ struct SessionMotion {
 struct Session {
   std::filesystem::path folder;
   Target target;
+  std::string aprilgrid_file{};  ///< Kalibr's description of the target, as the session names it
   std::vector<SessionSensor> sensors;
   std::optional<SessionMotion> motion;
-  Eigen::Vector3d up{0, -1, 0};  ///< hint, first sensor's camera frame
+  std::optional<std::string> tool_poses{};  ///< motion of type poses: its file, image,qw,qx,qy,qz,x,y,z
+  Eigen::Vector3d up{0, -1, 0};             ///< hint, first sensor's camera frame
   Channel channel = Channel::kAuto;
   YamlSubtree extraction;   ///< any option of the extraction
   YamlSubtree calibration;  ///< any option of the calibration
 };
 
 Session read_session(const std::filesystem::path& path);
+/// The target of a session file, or described as in one: `{type: circles, grid: [7, 7], pitch: 37.5}`; files
+/// that it names are relative to `folder`.
+Target read_target(const std::string& yaml_or_file, const std::filesystem::path& folder = {},
+                   std::string* aprilgrid_file = nullptr);
 std::string session_to_yaml(const Session& session);
 
 enum class TravelSource { kNone, kFile, kStep, kPoses };

@@ -105,21 +105,58 @@ std::map<std::int64_t, double> read_frame_travel(const std::filesystem::path& pa
   return travel;
 }
 
+namespace {
+
+/// Columns 1 to 7 of a row: qw qx qy qz x y z.
+Rigid3 pose_in_row(CsvReader& table) {
+  const Eigen::Quaterniond rotation(table.number(1), table.number(2), table.number(3), table.number(4));
+  if (!(std::abs(rotation.norm() - 1) <= kUnitTolerance))
+    table.fail("the quaternion has not unit length", "give qw,qx,qy,qz of a rotation");
+  return {rotation.normalized(), {table.number(5), table.number(6), table.number(7)}};
+}
+
+}  // namespace
+
 std::map<std::int64_t, Rigid3> read_poses(const std::filesystem::path& path) {
   CsvReader table(path, {"frame", "qw", "qx", "qy", "qz", "x", "y", "z"});
   std::map<std::int64_t, Rigid3> poses;
   while (table.next()) {
     const std::int64_t frame = table.integer(0);
-    const Eigen::Quaterniond rotation(table.number(1), table.number(2), table.number(3), table.number(4));
-    if (!(std::abs(rotation.norm() - 1) <= kUnitTolerance))
-      table.fail("the quaternion has not unit length", "give qw,qx,qy,qz of a rotation");
-    const Rigid3 pose{rotation.normalized(), {table.number(5), table.number(6), table.number(7)}};
-    if (!poses.emplace(frame, pose).second)
+    if (!poses.emplace(frame, pose_in_row(table)).second)
       table.fail("frame " + std::to_string(frame) + " is given twice", "keep one row");
   }
   if (poses.empty()) throw Error(path.string(), "has no rows", "give the pose of each frame");
   return poses;
 }
+
+std::map<std::string, Rigid3> read_image_poses(const std::filesystem::path& path) {
+  CsvReader table(path, {"image", "qw", "qx", "qy", "qz", "x", "y", "z"});
+  std::map<std::string, Rigid3> poses;
+  while (table.next()) {
+    const std::string image(table.text(0));
+    if (!poses.emplace(image, pose_in_row(table)).second)
+      table.fail("image " + image + " is given twice", "keep one row");
+  }
+  if (poses.empty()) throw Error(path.string(), "has no rows", "give the tool's pose for each image");
+  return poses;
+}
+
+namespace {
+
+/// "bridged;saturated", empty where there is nothing to say.
+void append_flags(std::string& out, std::uint8_t flags) {
+  constexpr std::pair<StripeFlag, std::string_view> kWords[] = {
+      {kStripeBridged, "bridged"}, {kStripeSaturated, "saturated"}, {kStripeAsymmetric, "asymmetric"}};
+  bool first = true;
+  for (const auto& [flag, word] : kWords) {
+    if ((flags & flag) == 0) continue;
+    if (!first) out.push_back(';');
+    out.append(word);
+    first = false;
+  }
+}
+
+}  // namespace
 
 void append_stripes(std::string& out, std::string_view image, const std::vector<Stripe>& stripes) {
   const std::string image_cell = csv_cell(image);
@@ -133,7 +170,8 @@ void append_stripes(std::string& out, std::string_view image, const std::vector<
       append_cell(out, point.normal_y, 7);
       append_cell(out, point.width, 4);
       append_cell(out, point.strength, 4);
-      append_decimals(out, point.sigma_px, 5);
+      append_cell(out, point.sigma_px, 5);
+      append_flags(out, point.flags);
       out.push_back('\n');
     }
   }

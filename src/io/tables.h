@@ -33,10 +33,13 @@ std::map<std::int64_t, double> read_frame_travel(const std::filesystem::path& pa
 /// frame -> pose (world_from_camera or world_from_rig); quaternions must have unit length to 1e-3.
 std::map<std::int64_t, Rigid3> read_poses(const std::filesystem::path& path);
 
+/// image (file name) -> base_from_tool of a robot or CMM, mm, by the columns image,qw,qx,qy,qz,x,y,z.
+std::map<std::string, Rigid3> read_image_poses(const std::filesystem::path& path);
+
 /// One row a point of stripes.csv; `image` as given on the command line (quoted where it holds a comma or a
 /// quote).
 inline constexpr std::string_view kStripesHeader =
-    "image,line,x,y,normal_x,normal_y,width,strength,sigma_px\n";
+    "image,line,x,y,normal_x,normal_y,width,strength,sigma_px,flags\n";
 void append_stripes(std::string& out, std::string_view image, const std::vector<Stripe>& stripes);
 
 /// One row a point of profiles.csv; `sensor` is the index of the sensor in the rig, as in the cloud.

@@ -7,22 +7,24 @@
 #include <map>
 #include <mutex>
 #include <opencv2/videoio.hpp>
+#include <vector>
 
 #include "core/error.h"
+#include "io/choose_channel.h"
 #include "io/grey_channel.h"
+#include "io/opencv_codecs.h"
 
 namespace lightstripe {
 namespace {
 
 constexpr std::size_t kMaxKept = 64;     // decoded frames that wait for a thread that is behind
-constexpr std::int64_t kSampleStep = 8;  // every so many frames are looked at until one decides the channel
+constexpr std::int64_t kSampleStep = 8;  // every so many frames one votes for the channel, fewer later on
 
 class VideoFrames : public FrameSource {
  public:
   VideoFrames(const std::filesystem::path& path, Channel channel) : path_(path), channel_(channel) {
     rewind();
     count_frames();
-    if (channel_ == Channel::kAuto) channel_ = Channel::kGray;
     rewind();
   }
 
@@ -47,8 +49,8 @@ class VideoFrames : public FrameSource {
  private:
   void rewind() const {
     // Named, because the others (GStreamer, numbered images) take what is no video and talk on stderr.
-    const bool opened =
-        capture_.open(path_.string(), cv::CAP_FFMPEG) || capture_.open(path_.string(), cv::CAP_OPENCV_MJPEG);
+    const bool opened = capture_->open(path_.string(), cv::CAP_FFMPEG) ||
+                        capture_->open(path_.string(), cv::CAP_OPENCV_MJPEG);
     if (!opened)
       throw Error(path_.string(), "cannot be opened as a video", "check the file or convert it to images");
     next_ = 0;
@@ -56,13 +58,18 @@ class VideoFrames : public FrameSource {
   }
 
   void count_frames() {
-    const double stated = capture_.get(cv::CAP_PROP_FRAME_COUNT);
+    const double stated = capture_->get(cv::CAP_PROP_FRAME_COUNT);
     if (stated > 0 && stated < 1e9) stated_ = static_cast<std::int64_t>(stated);
-    for (cv::Mat frame; capture_.grab(); ++size_) {
-      if (channel_ != Channel::kAuto || size_ % kSampleStep != 0 || !capture_.retrieve(frame)) continue;
+    std::int64_t next_vote = 0;
+    std::vector<Channel> votes;
+    for (cv::Mat frame; capture_->grab(); ++size_) {
+      if (channel_ != Channel::kAuto || size_ != next_vote || !capture_->retrieve(frame)) continue;
       const Channel chosen = strongest_channel(frame).channel;
-      if (chosen != Channel::kGray) channel_ = chosen;
+      if (chosen != Channel::kGray) votes.push_back(chosen);
+      // Of a video nobody knows the length beforehand: ever sparser samples reach its end.
+      next_vote += std::max(kSampleStep, next_vote / 8);
     }
+    if (channel_ == Channel::kAuto) channel_ = count_votes(votes);
     if (size_ == 0) throw Error(path_.string(), "holds no frames", "check the file or convert it to images");
   }
 
@@ -78,7 +85,7 @@ class VideoFrames : public FrameSource {
     if (index < next_) rewind();
     while (true) {
       cv::Mat frame;
-      if (!capture_.read(frame) || frame.depth() != CV_8U)
+      if (!capture_->read(frame) || frame.depth() != CV_8U)
         throw Error(name(next_), "cannot be decoded", "convert the video to images");
       if (next_++ == index) return frame;
       kept_.emplace(next_ - 1, std::move(frame));
@@ -90,7 +97,7 @@ class VideoFrames : public FrameSource {
   Channel channel_;
   std::int64_t size_ = 0, stated_ = 0;
   mutable std::mutex mutex_;
-  mutable cv::VideoCapture capture_;
+  std::unique_ptr<cv::VideoCapture> capture_ = opencv_codecs().new_capture();
   mutable std::int64_t next_ = 0;
   mutable std::map<std::int64_t, cv::Mat> kept_;
 };

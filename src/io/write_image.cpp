@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The lightstripe authors
 // SPDX-License-Identifier: Apache-2.0
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "core/error.h"
 #include "io/atomic_file.h"
 #include "io/images.h"
+#include "io/opencv_codecs.h"
 
 namespace lightstripe {
 namespace {
@@ -14,13 +14,10 @@ void write_mat(const std::filesystem::path& path, const cv::Mat& picture) {
   LIGHTSTRIPE_CHECK(!picture.empty(), "an image to write has pixels");
   std::vector<std::uint8_t> bytes;
   const std::string extension = path.has_extension() ? path.extension().string() : ".png";
-  bool known = false;
-  try {
-    known = cv::haveImageWriter("picture" + extension) && cv::imencode(extension, picture, bytes);
-  } catch (const cv::Exception&) {
-    known = false;
-  }
-  if (!known) throw Error(path.string(), "no picture format is known for '" + extension + "'", "use .png");
+  const OpencvCodecs& codecs = opencv_codecs();
+  constexpr int kJpegQuality = 95;
+  if (!codecs.can_encode(extension) || !codecs.encode(extension, picture, kJpegQuality, bytes))
+    throw Error(path.string(), "no picture format is known for '" + extension + "'", "use .png");
   write_file(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
@@ -49,7 +46,8 @@ void write_rgb_image(const std::filesystem::path& path, const std::vector<std::u
 
 std::vector<std::uint8_t> encode_jpeg(const std::vector<std::uint8_t>& rgb, int width, int height) {
   std::vector<std::uint8_t> bytes;
-  cv::imencode(".jpg", bgr_of(rgb, width, height), bytes, {cv::IMWRITE_JPEG_QUALITY, 80});
+  constexpr int kQuality = 80;  // of pictures inside a page
+  opencv_codecs().encode(".jpg", bgr_of(rgb, width, height), kQuality, bytes);
   return bytes;
 }
 

@@ -9,6 +9,7 @@
 #include <algorithm>
 
 #include "command_line.h"
+#include "io/rig_file.h"
 
 namespace lightstripe {
 namespace {
@@ -120,7 +121,13 @@ TEST_F(HostilePlaces, ADiskThatFillsUpLeavesNoHalfFile) {
             " -o " + quoted(disk / "rig.yaml"),
         "simulate --quiet testdata/one_sensor.yaml -o " + quoted(disk / "simulated")}) {
     expect_one_error(run_lightstripe(command), "(No space left on device); free some space");
-    EXPECT_EQ(disk.final_files(), 0) << command;
+    // calibrate writes the rig and its record before the report: they are whole, and a report that does not
+    // fit on the disk must not cost the rig.
+    const bool keeps_rig = command.starts_with("calibrate");
+    EXPECT_EQ(disk.final_files(), keeps_rig ? 2 : 0) << command;
+    if (keeps_rig) {
+      EXPECT_EQ(read_rig(disk / "rig.yaml").sensors.size(), 1U);
+    }
     disk.clear();
   }
 }

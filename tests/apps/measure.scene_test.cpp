@@ -110,9 +110,9 @@ TEST_F(MeasureWornRail, InclinationIsTheScenes) {
 TEST_F(MeasureWornRail, ReportIsOneFileAndThePlotIsThere) {
   const std::string html = text_of(*folder_ / "measure.html");
   EXPECT_THAT(html, HasSubstr("Worst places first"));
-  EXPECT_THAT(html, ::testing::Not(HasSubstr("src=")));
-  EXPECT_THAT(html, ::testing::Not(HasSubstr("http")));
-  EXPECT_THAT(html, HasSubstr("<a href=\"s/scan/gauge/0014.png\">gauge</a>"));
+  for (const std::string outside : {"src=\"http", "href=\"http", "@import", "url(http"})
+    EXPECT_THAT(html, ::testing::Not(HasSubstr(outside)));             // Chart.js names its home in a comment
+  EXPECT_THAT(html, HasSubstr("\"href\":\"s/scan/gauge/0014.png\""));  // its script makes a link of it
   EXPECT_GT(std::filesystem::file_size(*folder_ / "m_000014.png"), 10000u);
 }
 

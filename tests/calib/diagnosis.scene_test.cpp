@@ -63,7 +63,7 @@ TEST(CrossValidation, DiffersByAboutItsPredictionWhereTheModelIsTrue) {
   for (std::uint64_t seed = 0; seed < 6; ++seed) {
     const auto result = calibrated(plain_rig(2, seed), {.poses = 14, .seed = seed});
     ASSERT_TRUE(result.diagnosis->cross_validation.done) << result.diagnosis->cross_validation.why_not;
-    sum += std::pow(result.rig.quality.cross_validation_ratio, 2) / 6;
+    sum += std::pow(result.rig.quality.cross_validation_ratio.value(), 2) / 6;
   }
   EXPECT_GT(std::sqrt(sum), 0.5);
   EXPECT_LT(std::sqrt(sum), 1.6);
@@ -78,7 +78,7 @@ TEST(CrossValidation, FindsALensModelThatIsTooLean) {
   const auto result =
       calibrate_rig(observe(truth, {.corner_noise_px = 0.03, .stripe_noise_px = 0.03}), options);
   ASSERT_TRUE(result.diagnosis) << result.summary.message;
-  EXPECT_GT(result.rig.quality.cross_validation_ratio, 2);
+  EXPECT_GT(result.rig.quality.cross_validation_ratio.value_or(0), 2);
   EXPECT_THAT(result.rig.quality.warnings, ::testing::Contains(HasSubstr("a lens model too lean")));
 }
 

@@ -51,14 +51,14 @@ TEST(RigFromFirst, RefusesAnUpHintAlongX) {
 }
 
 TEST(RigOf, TurnsARotaryAxisToGrowWithY) {
-  SessionViews measurements;
-  measurements.sensor_names = {"only"};
-  measurements.motion = MotionType::kRotary;
+  SessionViews session;
+  session.sensor_names = {"only"};
+  session.motion = MotionType::kRotary;
   auto state = one_sensor();
   state.motion.emplace();
   for (const double sign : {1.0, -1.0}) {
     state.motion->direction = sign * Vector3d::UnitX();
-    const Rig rig = rig_of(measurements, state, {0, -1, 0});
+    const Rig rig = rig_of(session, state, {0, -1, 0});
     EXPECT_GT(rig.motion.axis_direction.y(), 0.99);
     // Camera x is -y of the rig here (y = z cross x), so the axis along +x is turned, and with it the sense.
     EXPECT_EQ(rig.motion.rig_moves,

@@ -135,5 +135,23 @@ TEST_F(CameraFile, BrokenFilesAreNamed) {
       HasSubstr("equidistant"));
 }
 
+TEST_F(CameraFile, WhatIsNoPinholeCameraIsRefusedByName) {
+  const auto camera = [&](const std::string& K, const std::string& more) {
+    return message_of(
+        written("f.yaml", "image_width: 640\nimage_height: 480\ncamera_matrix: {rows: 3, cols: 3, data: [" +
+                              K + "]}\n" + more));
+  };
+  const std::string good = "1095, 0, 324, 0, 1094, 235, 0, 0, 1";
+  EXPECT_EQ(camera(good, ""), "no error");
+  EXPECT_THAT(camera("1095, 0, 0, 0, 1094, 0, 324, 235, 1", ""), HasSubstr("written by columns"));
+  EXPECT_THAT(camera("1095, 2.5, 324, 0, 1094, 235, 0, 0, 1", ""), HasSubstr("skew (2.5 px)"));
+  EXPECT_THAT(camera("1095, 0, 324, 0, 1094, 235, 0, 0, 2", ""), HasSubstr("last row"));
+  EXPECT_THAT(camera("1095, 0, 924, 0, 1094, 235, 0, 0, 1", ""), HasSubstr("outside the picture"));
+  EXPECT_THAT(camera(good, "fisheye_model: 1\n"), HasSubstr("fisheye"));
+  EXPECT_THAT(
+      camera(good, "distortion_coefficients: {rows: 4, cols: 1, data: [0.241, 0.159, 0.137, 0.083]}\n"),
+      HasSubstr("look like a fisheye"));
+}
+
 }  // namespace
 }  // namespace lightstripe

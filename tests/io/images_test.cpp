@@ -276,9 +276,9 @@ Channel chosen_for(const cv::Mat& picture) {
 }
 
 TEST(ChannelAuto, TakesTheColourOfTheLine) {
-  EXPECT_EQ(chosen_for(board_with_line({40, 40, 255})), Channel::kRedExcess);
-  EXPECT_EQ(chosen_for(board_with_line({40, 255, 60})), Channel::kGreenExcess);
-  EXPECT_EQ(chosen_for(board_with_line({255, 80, 60})), Channel::kBlueExcess);
+  EXPECT_EQ(chosen_for(board_with_line({40, 40, 255})), Channel::kRedClipped);
+  EXPECT_EQ(chosen_for(board_with_line({40, 255, 60})), Channel::kGreenClipped);
+  EXPECT_EQ(chosen_for(board_with_line({255, 80, 60})), Channel::kBlueClipped);
 }
 
 TEST(ChannelAuto, TakesGreyWhereThereIsNoColour) {
@@ -308,7 +308,7 @@ TEST(Channel, AnExcessOfAGreyPictureIsAnError) {
   EXPECT_NO_THROW(read_image(file, Channel::kRed));
 }
 
-TEST(Channel, OverexposedLineWhoseExcessIsHollowIsReadAsGrey) {
+TEST(Channel, OverexposedLineIsReadWithTheOtherChannelsWhereItsOwnIsClipped) {
   // A halo of pure clipped red, 20 px wide, and a core of 4 px where green and blue catch up.
   const TempFolder folder;
   const auto picture = [&](int core) {
@@ -325,8 +325,8 @@ TEST(Channel, OverexposedLineWhoseExcessIsHollowIsReadAsGrey) {
     read_image(folder / "line.png", Channel::kAuto, &chosen);
     return chosen;
   };
-  EXPECT_EQ(picture(230), Channel::kGray);
-  EXPECT_EQ(picture(20), Channel::kRedExcess);
+  EXPECT_EQ(picture(230), Channel::kRedClipped);
+  EXPECT_EQ(picture(20), Channel::kRedClipped);
 }
 
 }  // namespace

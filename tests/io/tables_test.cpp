@@ -105,11 +105,14 @@ TEST(Poses, AreReadWithUnitQuaternions) {
 TEST(Stripes, AreOneRowAPoint) {
   Stripe stripe;
   stripe.points.push_back({1.0, 2.123456, 0.6, -0.8, 6.25, 12.5, 0.0123456, 100, 0});
+  stripe.points.push_back(stripe.points.back());
+  stripe.points.back().flags = kStripeBridged | kStripeSaturated | kStripeAsymmetric;
   std::string out(kStripesHeader);
   append_stripes(out, "a, b.png", {Stripe{}, stripe});
   EXPECT_EQ(out,
-            "image,line,x,y,normal_x,normal_y,width,strength,sigma_px\n"
-            "\"a, b.png\",1,1,2.12346,0.6,-0.8,6.25,12.5,0.01235\n");
+            "image,line,x,y,normal_x,normal_y,width,strength,sigma_px,flags\n"
+            "\"a, b.png\",1,1,2.12346,0.6,-0.8,6.25,12.5,0.01235,\n"
+            "\"a, b.png\",1,1,2.12346,0.6,-0.8,6.25,12.5,0.01235,bridged;saturated;asymmetric\n");
 }
 
 Profile random_profile(std::int64_t frame, int points) {

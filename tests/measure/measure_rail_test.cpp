@@ -158,5 +158,26 @@ TEST_F(MeasureRail, SigmasCoverTheErrors) {
   }
 }
 
+// The area of an unworn rail is nothing on average, and its sigma is what it scatters by: 60 repeats know the
+// variance to 18 %. Two points a sector are the hard case: their median must be their mean.
+TEST_F(MeasureRail, HeadAreaLossOfANewRailIsNothingAndItsSigmaHonest) {
+  constexpr int kRepeats = 60;
+  for (const double spacing : {0.1, 0.25}) {
+    double sum = 0, squares = 0, predicted = 0;
+    for (int i = 0; i < kRepeats; ++i) {
+      const Estimate area = measured(rail_section(nominal, {.spacing_mm = spacing,
+                                                            .noise_mm = 0.02,
+                                                            .seed = static_cast<std::uint64_t>(i + 1)}))
+                                .head_area_loss;
+      sum += value(area), squares += value(area) * value(area),
+          predicted += *area.sigma * *area.sigma / kRepeats;
+    }
+    const double mean = sum / kRepeats, variance = (squares - sum * mean) / (kRepeats - 1);
+    EXPECT_LT(std::abs(mean), 0.6 * std::sqrt(predicted)) << spacing;
+    EXPECT_GT(variance / predicted, 0.55) << spacing;
+    EXPECT_LT(variance / predicted, 1.7) << spacing;
+  }
+}
+
 }  // namespace
 }  // namespace lightstripe

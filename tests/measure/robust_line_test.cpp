@@ -60,5 +60,23 @@ TEST(RobustLine, PredictedVarianceIsThatOfTheValue) {
   EXPECT_LT(squares, 1.35);
 }
 
+// A sixth of the samples 8 sigma off: at Tukey's limit of 4.7 sigma they count nothing, at three times that
+// they would move the level by half a sigma and more.
+TEST(FitPolynomial, OutliersOfEightSigmaCountNothing) {
+  Random random(21);
+  std::vector<Sample1> samples;
+  for (int i = 0; i < 240; ++i)
+    samples.push_back({0.1 * i - 12, 0.01 * random.gaussian() + (i % 6 == 0 ? 0.08 : 0.0)});
+  const auto fit = fit_polynomial(samples, 0, 1e-4);
+  ASSERT_TRUE(fit);
+  EXPECT_LT(std::abs(fit->value), 0.002);
+}
+
+TEST(MedianOf, AnEvenCountIsTheMeanOfTheMiddleTwo) {
+  EXPECT_EQ(median_of({4, 1}), 2.5);
+  EXPECT_EQ(median_of({9, 1, 3, 5}), 4);
+  EXPECT_EQ(median_of({9, 1, 3}), 3);
+}
+
 }  // namespace
 }  // namespace lightstripe

@@ -19,7 +19,7 @@ expect() {
   [ "$got" = "$wanted" ] || { echo "after '$*': '$got' instead of '$wanted'"; exit 1; }
 }
 expect "extract" lightstripe ext
-expect "reconstruct" lightstripe rec
+expect "reconstruct" lightstripe recon
 expect "--stripe-width" lightstripe extract a.png --str
 expect "--extraction.stripe-width" lightstripe reconstruct --extraction.str
 cd "$(mktemp -d)"

@@ -15,7 +15,7 @@ trap 'rm -rf "$work"' EXIT
 deb=$(echo "$work"/lightstripe_*.deb)
 field() { dpkg-deb --field "$deb" "$1"; }
 [ "$(field Version)" = "$version" ] || { echo "Version is $(field Version), not $version"; exit 1; }
-for package in libc6 libopencv-core libyaml-cpp libpcl-io libtbb; do
+for package in libc6 libopencv-core libyaml-cpp libopencv-imgcodecs libtbb; do
   [[ $(field Depends) == *"$package"* ]] || { echo "Depends lacks $package: $(field Depends)"; exit 1; }
 done
 [[ $(field Depends) != *-dev* ]] || { echo "a program must not depend on headers: $(field Depends)"; exit 1; }

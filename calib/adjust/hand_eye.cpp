@@ -1,0 +1,272 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+#include "calib/adjust/hand_eye.h"
+
+#include <ceres/autodiff_cost_function.h>
+#include <ceres/loss_function.h>
+#include <ceres/manifold.h>
+#include <ceres/problem.h>
+#include <ceres/product_manifold.h>
+#include <ceres/solver.h>
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <opencv2/calib3d.hpp>
+
+#include "calib/adjust/rig_state.h"
+
+namespace lightstripe {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+using PoseManifold = ceres::ProductManifold<ceres::EigenQuaternionManifold, ceres::EuclideanManifold<3>>;
+using Vector6d = Eigen::Matrix<double, 6, 1>;
+
+constexpr double kDegree = std::numbers::pi / 180;
+constexpr std::size_t kMinViews = 5;
+
+/// Spread of the poses' errors: rotation (rad) and translation (mm), each component.
+struct Spread {
+  double rotation = 1e-3, translation = 0.5;
+};
+
+struct Block {
+  std::array<double, 7> values;  ///< quaternion x y z w, translation
+
+  explicit Block(const Rigid3& pose)
+      : values{pose.rotation.x(),    pose.rotation.y(),    pose.rotation.z(),   pose.rotation.w(),
+               pose.translation.x(), pose.translation.y(), pose.translation.z()} {}
+  Rigid3 pose() const {
+    return {Eigen::Quaterniond(values[3], values[0], values[1], values[2]).normalized(),
+            {values[4], values[5], values[6]}};
+  }
+};
+
+/// The error of one pose; blocks: tool_from_first, base_from_board.
+struct PoseError {
+  Rigid3 tool_from_base, board_from_first;
+  Spread spread;
+
+  template <class T>
+  bool operator()(const T* tool_from_first, const T* base_from_board, T* residual) const {
+    using Quaternion = Eigen::Quaternion<T>;
+    using Vector = Eigen::Matrix<T, 3, 1>;
+    const Eigen::Map<const Quaternion> qx(tool_from_first), qy(base_from_board);
+    const Eigen::Map<const Vector> tx(tool_from_first + 4), ty(base_from_board + 4);
+    // tool_from_base base_from_board board_from_first first_from_tool, identity without error
+    const Quaternion q_base = tool_from_base.rotation.cast<T>(),
+                     q_first = board_from_first.rotation.cast<T>();
+    const Quaternion q_tool = qx.conjugate();
+    const Vector t_tool = -(q_tool * tx);
+    const Vector in_board = q_first * t_tool + board_from_first.translation.cast<T>();
+    const Vector in_base = qy * in_board + ty;
+    const Vector t = q_base * in_base + tool_from_base.translation.cast<T>();
+    const Quaternion q = q_base * qy * q_first * q_tool;
+    const T sign = q.w() < T(0) ? T(-1) : T(1);
+    for (int i = 0; i < 3; ++i) {
+      residual[i] = T(2) * sign * q.vec()[i] / T(spread.rotation);
+      residual[3 + i] = t[i] / T(spread.translation);
+    }
+    return true;
+  }
+};
+
+using PoseCost = ceres::AutoDiffCostFunction<PoseError, 6, 7, 7>;
+
+Vector6d error_of(const ToolView& view, const Block& tool, const Block& base) {
+  Vector6d error;
+  PoseError{view.base_from_tool.inverse(), view.first_from_board.inverse(), {1, 1}}(
+      tool.values.data(), base.values.data(), error.data());
+  return error;
+}
+
+cv::Mat as_mat(const Matrix3d& R) {
+  cv::Mat m(3, 3, CV_64F);
+  for (int i = 0; i < 9; ++i) m.at<double>(i / 3, i % 3) = R(i / 3, i % 3);
+  return m;
+}
+
+Rigid3 start_value(const std::vector<ToolView>& views, cv::HandEyeCalibrationMethod method) {
+  std::vector<cv::Mat> R_tool, t_tool, R_board, t_board;
+  for (const auto& view : views) {
+    R_tool.push_back(as_mat(view.base_from_tool.rotation.toRotationMatrix()));
+    R_board.push_back(as_mat(view.first_from_board.rotation.toRotationMatrix()));
+    const Vector3d &a = view.base_from_tool.translation, &b = view.first_from_board.translation;
+    t_tool.push_back((cv::Mat_<double>(3, 1) << a.x(), a.y(), a.z()));
+    t_board.push_back((cv::Mat_<double>(3, 1) << b.x(), b.y(), b.z()));
+  }
+  cv::Mat R, t;
+  cv::calibrateHandEye(R_tool, t_tool, R_board, t_board, R, t, method);
+  Matrix3d rotation;
+  for (int i = 0; i < 9; ++i) rotation(i / 3, i % 3) = R.at<double>(i / 3, i % 3);
+  return {Eigen::Quaterniond(rotation).normalized(), {t.at<double>(0), t.at<double>(1), t.at<double>(2)}};
+}
+
+/// Solves with these weights from where the blocks are; returns J^T J of tool_from_first's tangent space
+/// after base_from_board is eliminated.
+Eigen::Matrix<double, 6, 6> solve(const std::vector<ToolView>& views, const std::vector<bool>& used,
+                                  const Spread& spread, bool robust, Block& tool, Block& base) {
+  ceres::Problem problem;
+  problem.AddParameterBlock(tool.values.data(), 7, new PoseManifold);
+  problem.AddParameterBlock(base.values.data(), 7, new PoseManifold);
+  for (std::size_t i = 0; i < views.size(); ++i)
+    if (used[i])
+      problem.AddResidualBlock(new PoseCost(new PoseError{views[i].base_from_tool.inverse(),
+                                                          views[i].first_from_board.inverse(), spread}),
+                               robust ? new ceres::CauchyLoss(3) : nullptr, tool.values.data(),
+                               base.values.data());
+  ceres::Solver::Options options;
+  options.linear_solver_type = ceres::DENSE_QR;
+  options.logging_type = ceres::SILENT;
+  options.num_threads = 1;
+  options.function_tolerance = 1e-12;
+  options.max_num_iterations = 100;
+  ceres::Solver::Summary summary;
+  ceres::Solve(options, &problem, &summary);
+  ceres::Problem::EvaluateOptions evaluate;
+  evaluate.parameter_blocks = {tool.values.data(), base.values.data()};
+  evaluate.apply_loss_function = false;
+  ceres::CRSMatrix crs;
+  problem.Evaluate(evaluate, nullptr, nullptr, nullptr, &crs);
+  Eigen::MatrixXd J = Eigen::MatrixXd::Zero(crs.num_rows, crs.num_cols);
+  for (int row = 0; row < crs.num_rows; ++row)
+    for (int k = crs.rows[static_cast<std::size_t>(row)]; k < crs.rows[static_cast<std::size_t>(row) + 1];
+         ++k)
+      J(row, crs.cols[static_cast<std::size_t>(k)]) = crs.values[static_cast<std::size_t>(k)];
+  const Eigen::MatrixXd N = J.transpose() * J;
+  return N.topLeftCorner<6, 6>() -
+         N.topRightCorner<6, 6>() * N.bottomRightCorner<6, 6>().inverse() * N.bottomLeftCorner<6, 6>();
+}
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// Of the components: robust, or rms with the unknowns (12 of 6 n) allowed for.
+Spread spread_of(const std::vector<ToolView>& views, const std::vector<bool>& used, const Block& tool,
+                 const Block& base, bool robust) {
+  std::vector<double> turns, shifts;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    if (!used[i]) continue;
+    const Vector6d e = error_of(views[i], tool, base);
+    for (int k = 0; k < 3; ++k) turns.push_back(std::abs(e[k])), shifts.push_back(std::abs(e[3 + k]));
+  }
+  const double n = static_cast<double>(turns.size());
+  const double redundancy = std::max(0.1, 1 - 12 / (2 * n));
+  const auto rms = [&](const std::vector<double>& values) {
+    double sum = 0;
+    for (const double v : values) sum += v * v;
+    return std::sqrt(sum / n / redundancy);
+  };
+  return {std::max(1e-7, robust ? 1.4826 * median(turns) : rms(turns)),
+          std::max(1e-4, robust ? 1.4826 * median(shifts) : rms(shifts))};
+}
+
+void refuse_standing_tool(const std::vector<ToolView>& views) {
+  constexpr double kMinTurn = 5 * kDegree;
+  if (views.size() < kMinViews)
+    throw NotUsable(
+        fmt::format("motion: the board was found in {} pictures with a pose of the tool; at least {} are "
+                    "needed, better 20",
+                    views.size(), kMinViews));
+  Matrix3d axes = Matrix3d::Zero();
+  double largest = 0;
+  for (const auto& view : views) {
+    const Eigen::AngleAxisd turn(views.front().base_from_tool.rotation.conjugate() *
+                                 view.base_from_tool.rotation);
+    largest = std::max(largest, std::abs(turn.angle()));
+    axes += turn.angle() * turn.angle() * turn.axis() * turn.axis().transpose();
+  }
+  if (largest < kMinTurn)
+    throw NotUsable(
+        fmt::format("motion: the tool's poses do not move: they turn by {:.2f} degrees at most; give each "
+                    "picture its own pose (base_from_tool), turned by 20 to 60 degrees about different axes",
+                    largest / kDegree));
+  const Eigen::SelfAdjointEigenSolver<Matrix3d> eigen(axes);
+  if (eigen.eigenvalues()[1] < 0.01 * eigen.eigenvalues()[2])
+    throw NotUsable(
+        "motion: the tool turns about one axis only, which leaves its distance to the rig along "
+        "that axis open; turn it about a second axis as well");
+}
+
+void refuse_contradiction(const HandEye& found, std::size_t used, std::size_t all) {
+  constexpr double kMaxDeg = 1.5, kMaxMm = 8;
+  if (found.rotation_rms_deg < kMaxDeg && found.translation_rms_mm < kMaxMm && 2 * used > all) return;
+  throw NotUsable(fmt::format(
+      "motion: the tool's poses contradict the board's by {:.2f} degrees and {:.1f} mm ({} of {} "
+      "fit); check that poses are base_from_tool in mm with quaternions w x y z, each beside its own "
+      "picture, and that the board is fixed",
+      found.rotation_rms_deg, found.translation_rms_mm, used, all));
+}
+
+/// Of the two closed forms the better one.
+Rigid3 best_start(const std::vector<ToolView>& views) {
+  Rigid3 best;
+  double least = 1e300;
+  for (const auto method : {cv::CALIB_HAND_EYE_DANIILIDIS, cv::CALIB_HAND_EYE_TSAI}) {
+    const Rigid3 start = start_value(views, method);
+    const Rigid3 base_from_board = views.front().base_from_tool * start * views.front().first_from_board;
+    std::vector<double> errors;
+    for (const auto& view : views)
+      errors.push_back(error_of(view, Block(start), Block(base_from_board)).tail<3>().norm());
+    const double error = median(std::move(errors));
+    if (!(error < least)) continue;
+    least = error;
+    best = start;
+  }
+  return best;
+}
+
+}  // namespace
+
+HandEye find_hand_eye(const std::vector<ToolView>& views) {
+  constexpr double kOutlier = 4.5;  // in sigma of a component
+  refuse_standing_tool(views);
+  Block tool(best_start(views));
+  Block base(views.front().base_from_tool * tool.pose() * views.front().first_from_board);
+  std::vector<bool> used(views.size(), true);
+  Spread spread;
+  for (int round = 0; round < 3; ++round) {
+    solve(views, used, spread, true, tool, base);
+    spread = spread_of(views, used, tool, base, true);
+  }
+  HandEye result;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    const Vector6d e = error_of(views[i], tool, base);
+    const double turn = e.head<3>().norm(), shift = e.tail<3>().norm();
+    used[i] = turn < kOutlier * std::sqrt(3.0) * spread.rotation &&
+              shift < kOutlier * std::sqrt(3.0) * spread.translation;
+    if (!used[i])
+      result.left_out.push_back(
+          fmt::format("{}: the tool's pose is left out, it is {:.2f} degrees and {:.2f} mm off the others'",
+                      views[i].image, turn / kDegree, shift));
+  }
+  for (int round = 0; round < 2; ++round) {
+    solve(views, used, spread, false, tool, base);
+    spread = spread_of(views, used, tool, base, false);
+  }
+  const auto normal = solve(views, used, spread, false, tool, base);
+  result.tool_from_first = tool.pose();
+  result.base_from_board = base.pose();
+  result.rotation_rms_deg = std::sqrt(3.0) * spread.rotation / kDegree;
+  result.translation_rms_mm = std::sqrt(3.0) * spread.translation;
+  refuse_contradiction(result, static_cast<std::size_t>(std::count(used.begin(), used.end(), true)),
+                       views.size());
+  result.covariance = normal.inverse();
+  // The quaternion's tangent space is half the rotation vector.
+  result.covariance.topRows<3>() *= 2;
+  result.covariance.leftCols<3>() *= 2;
+  result.rotation_sigma_deg = std::sqrt(result.covariance.topLeftCorner<3, 3>().trace()) / kDegree;
+  result.translation_sigma_mm = std::sqrt(result.covariance.bottomRightCorner<3, 3>().trace());
+  return result;
+}
+
+}  // namespace lightstripe

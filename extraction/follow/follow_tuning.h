@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+// The numbers by which lines are looked for at their own scales, each with its
+// unit and its reason.
+#pragma once
+
+namespace lightstripe {
+
+struct FollowTuning {
+  /// Octaves: a line within this of a scale already in use shares it. A kernel
+  /// that is off by a third of an octave costs 4 % in accuracy, and one scale
+  /// for all keeps a picture's lines alike.
+  double shared_scale = 0.4;
+  /// Octaves: a line whose own scale is farther off than this is followed again
+  /// at it.
+  double refollow_scale = 0.4;
+  /// Octaves: the same for the first line of a scale, which decides it for
+  /// those that come after.
+  double first_scale = 0.07;
+  /// Octaves: no line is followed again farther off than this from the scale of
+  /// its seed.
+  double farthest_scale = 0.75;
+  /// Of the length before: a line followed again must keep so much, else the
+  /// first try stands.
+  double kept_length = 0.8;
+  /// Of the least length: what is shorter is no line at this scale, and leaves
+  /// its place to other scales. The exact length is judged later on the
+  /// measured line.
+  double least_length = 0.4;
+  /// Of a line's points: where so many have another line within 1.5 sigma, it
+  /// is that line seen once more.
+  double most_taken = 0.5;
+  /// Sigma, px of the binned image: from twice this on the line is followed in
+  /// the next coarser level, where it costs a fraction and loses nothing.
+  double binned_sigma = 2.0;
+  /// Sigma to both sides of a line that was kept (or rejected), in which no
+  /// other line begins: its flanks and its glow.
+  double blocked_by_line = 3.0, blocked_by_rejected = 1.5;
+  /// Of the strongest line's height: seeds with less contrast are not tried.
+  /// The filter of whole lines drops what is fainter than lines.min_contrast
+  /// anyway.
+  double faintest_seed = 0.05;
+  /// Widths and heights of the image: more points than this followed in vain
+  /// are a crowd of noise, and the search ends.
+  double futile_points = 3;
+  /// Points of following that a seed costs at which no scale shows a line:
+  /// about 2 microseconds.
+  double futile_seed = 3;
+  /// The same for what is tried at both ends of a line before it ends.
+  double futile_line = 50;
+};
+
+}  // namespace lightstripe

@@ -1,0 +1,365 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+#include "extraction/follow/own_scale.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "extraction/follow/direction_guided_between.h"
+#include "extraction/kernels/width_rule.h"
+#include "extraction/lines/line_measure.h"
+
+namespace lightstripe {
+namespace {
+
+/// Rungs of the ladder that a seed of one level may belong to: those of its own
+/// level and the next ones.
+struct RungRange {
+  int first, last;
+};
+RungRange rungs_of(int level) { return {2 * level - 2, 2 * level + 4}; }
+
+/// Where the coarse levels look for lines: pixels that stand out over those 4
+/// px to both sides, which meets stripes of a standard deviation of 1 to 2.5
+/// px.
+constexpr int kSeedReach = 4;
+
+template <class T>
+void collect_level(const OwnScaleSearch<T>& search, int level, SeedWorkspace& seeds,
+                   OwnScaleWorkspace<T>& w) {
+  const auto k = static_cast<std::size_t>(level);
+  SeedRule rule;
+  rule.contrast = std::max(4.0 / (1 << level), 5.0 * w.pyramid.noise[k]);
+  rule.foreground = search.brightest + 1;
+  rule.brightest = search.brightest;
+  rule.reach = kSeedReach;
+  rule.step = level == 0 ? 2 : 1;
+  find_seeds(w.pyramid.levels[k], rule, seeds);
+  const int half = (1 << level) / 2;
+  for (const LineSeed& s : seeds.sorted)
+    w.found.push_back({(s.x << level) + half, (s.y << level) + half, static_cast<std::int16_t>(level),
+                       static_cast<std::int16_t>(s.rank)});
+}
+
+/// By falling contrast, then from fine to coarse levels; a counting sort keeps
+/// the order of equals.
+template <class T>
+void sort_seeds(OwnScaleWorkspace<T>& w) {
+  std::array<std::size_t, 257> first{};
+  const auto place = [](const ScaleSeed& s) { return static_cast<std::size_t>(255 - s.rank); };
+  for (const ScaleSeed& s : w.found) ++first[place(s) + 1];
+  for (std::size_t i = 1; i < first.size(); ++i) first[i] += first[i - 1];
+  w.seeds.resize(w.found.size());
+  for (const ScaleSeed& s : w.found) w.seeds[first[place(s)]++] = s;
+}
+
+template <class T>
+class LineFinder {
+ public:
+  LineFinder(const OwnScaleSearch<T>& search, const LimitsMaker& limits, KernelCache& kernels,
+             DirectionGuidedWorkspace<T>& following, OwnScaleWorkspace<T>& w, ScaleGroups& groups)
+      : search_(search), limits_(limits), kernels_(kernels), following_(following), w_(w), groups_(groups) {}
+
+  void run();
+
+ private:
+  /// A line just followed, as long as it may still be taken back.
+  struct Followed {
+    std::size_t group = 0;
+    LineRange range;
+    std::size_t checkpoint = 0;
+    std::uint16_t first_label = 0;
+  };
+
+  void prepare();
+  std::uint8_t& tried(int level, int x, int y);
+  std::size_t group_for(double sigma, double tolerance);
+  std::optional<Followed> follow(std::size_t group, int x, int y);
+  void to_full_image(ScaleGroup& group);
+  void take_back(const Followed& line);
+  void block(const Followed& line, double sigmas);
+  std::uint8_t& blocked(int x, int y) {
+    const auto columns = static_cast<std::size_t>(search_.image.width / 4 + 1);
+    return w_.blocked[static_cast<std::size_t>(y / 4) * columns + static_cast<std::size_t>(x / 4)];
+  }
+  std::optional<Followed> at_own_scale(const Followed& line, int x, int y);
+  double length(const Followed& line) const { return static_cast<double>(line.range.size()); }
+  double height(const Followed& line) const;
+  bool runs_beside_another(const Followed& line) const;
+  bool is_edge(const Followed& line) const;
+  void keep_or_reject(const Followed& line);
+  void try_seed(const ScaleSeed& seed);
+
+  const OwnScaleSearch<T>& search_;
+  const LimitsMaker& limits_;
+  KernelCache& kernels_;
+  DirectionGuidedWorkspace<T>& following_;
+  OwnScaleWorkspace<T>& w_;
+  ScaleGroups& groups_;
+  MaskLabels labels_;
+  double strongest_ = 0;  ///< grey levels, height of the strongest line so far
+  double futile_ = 0;     ///< points followed in vain
+  int lines_ = 0;
+};
+
+template <class T>
+void LineFinder<T>::prepare() {
+  build_pyramid(search_.image, search_.noise, w_.pyramid);
+  w_.found.clear();
+  for (int level = 0; level < w_.pyramid.count; ++level) {
+    collect_level(search_, level, following_.seeds, w_);
+    const ImageView<T> image = w_.pyramid.levels[static_cast<std::size_t>(level)];
+    w_.tried[static_cast<std::size_t>(level)].assign(
+        static_cast<std::size_t>(image.width / 4 + 1) * static_cast<std::size_t>(image.height / 4 + 1), 0);
+  }
+  sort_seeds(w_);
+  w_.blocked.assign(static_cast<std::size_t>(search_.image.width / 4 + 1) *
+                        static_cast<std::size_t>(search_.image.height / 4 + 1),
+                    0);
+  following_.mask.reset(search_.image.width, search_.image.height, 1);
+  groups_.count = 0;
+}
+
+/// The cell of 4 x 4 pixels of a level.
+template <class T>
+std::uint8_t& LineFinder<T>::tried(int level, int x, int y) {
+  const auto k = static_cast<std::size_t>(level);
+  const ImageView<T> image = w_.pyramid.levels[k];
+  const int column = std::clamp(x >> (level + 2), 0, image.width / 4),
+            row = std::clamp(y >> (level + 2), 0, image.height / 4);
+  return w_.tried[k][static_cast<std::size_t>(row) * static_cast<std::size_t>(image.width / 4 + 1) +
+                     static_cast<std::size_t>(column)];
+}
+
+/// The group with the nearest scale, or a new one.
+template <class T>
+std::size_t LineFinder<T>::group_for(double sigma, double tolerance) {
+  std::size_t best = groups_.count;
+  for (std::size_t g = 0; g < groups_.count; ++g) {
+    const double distance = std::abs(std::log2(sigma / groups_.all[g].kernels->sigma));
+    if (distance > tolerance) continue;
+    tolerance = distance;
+    best = g;
+  }
+  if (best < groups_.count) return best;
+  const DerivativeKernels& kernels = kernels_.nearest(sigma);
+  ScaleGroup& group = groups_.add(kernels);
+  while (group.level + 1 < w_.pyramid.count && sigma >= search_.tuning.binned_sigma * (2 << group.level))
+    ++group.level;
+  group.binned_kernels = &kernels_.nearest(kernels.sigma / (1 << group.level));
+  group.limits = limits_(*group.binned_kernels, w_.pyramid.noise[static_cast<std::size_t>(group.level)]);
+  return best;
+}
+
+template <class T>
+std::optional<typename LineFinder<T>::Followed> LineFinder<T>::follow(std::size_t group, int x, int y) {
+  ScaleGroup& g = groups_.all[group];
+  const RidgeFinder<T> finder{w_.pyramid.levels[static_cast<std::size_t>(g.level)], *g.binned_kernels,
+                              g.limits, following_.border_window, g.level};
+  Followed line{group, {}, following_.mask.checkpoint(), static_cast<std::uint16_t>(labels_.current + 1)};
+  if (!follow_line_at(finder, x >> g.level, y >> g.level, labels_, following_, g.lines)) return std::nullopt;
+  if (g.level > 0) to_full_image(g);
+  line.range = g.lines.lines.back();
+  return line;
+}
+
+/// The last line of a group, from its level's pixels to the image's own.
+template <class T>
+void LineFinder<T>::to_full_image(ScaleGroup& group) {
+  LineRange& range = group.lines.lines.back();
+  std::vector<StripePoint>& points = group.lines.points;
+  w_.binned_points.assign(points.begin() + static_cast<std::ptrdiff_t>(range.begin), points.end());
+  points.resize(range.begin);
+  append_in_full_image(w_.binned_points, group.level, points);
+  range.end = points.size();
+}
+
+/// The line goes, and its place is free again.
+template <class T>
+void LineFinder<T>::take_back(const Followed& line) {
+  LineSet& lines = groups_.all[line.group].lines;
+  lines.lines.pop_back();
+  lines.points.resize(line.range.begin);
+  following_.mask.relabel(line.checkpoint, line.first_label, labels_.current, ExclusionMask::kFree);
+}
+
+/// The line followed again at its own scale, where that differs and does not
+/// lose much of it.
+template <class T>
+std::optional<typename LineFinder<T>::Followed> LineFinder<T>::at_own_scale(const Followed& line, int x,
+                                                                            int y) {
+  const LineSet& lines = groups_.all[line.group].lines;
+  const std::span<const StripePoint> points(lines.points.data() + line.range.begin, line.range.size());
+  const double used = groups_.all[line.group].kernels->sigma;
+  const double farthest = std::exp2(search_.tuning.farthest_scale);
+  const double own =
+      std::clamp(scale_of_line(w_.pyramid, kernels_, points, used), used / farthest, used * farthest);
+  const bool first_of_its_scale = lines.lines.size() == 1;
+  const double tolerance = first_of_its_scale ? search_.tuning.first_scale : search_.tuning.refollow_scale;
+  if (std::abs(std::log2(own / used)) <= tolerance) return line;
+  const StripePoint middle = points[points.size() / 2];
+  const double least = search_.tuning.kept_length * length(line);
+  take_back(line);
+  const std::size_t group = group_for(own, 0.5 * tolerance);
+  auto again =
+      follow(group, static_cast<int>(std::lround(middle.x)), static_cast<int>(std::lround(middle.y)));
+  if (again && length(*again) >= least) return again;
+  if (again) take_back(*again);
+  return follow(line.group, x, y);
+}
+
+template <class T>
+double LineFinder<T>::height(const Followed& line) const {
+  const ScaleGroup& g = groups_.all[line.group];
+  double sum = 0;
+  for (std::size_t i = line.range.begin; i < line.range.end; ++i) sum += g.lines.points[i].strength;
+  return sum / length(line) / g.kernels->matched_strength();
+}
+
+/// The light falls on one side only. The filter drops such a line later, by its
+/// own profiles; here it tells how much of the search is in vain.
+template <class T>
+bool LineFinder<T>::is_edge(const Followed& line) const {
+  constexpr double kAside = 2.6,
+                   kLeastFlanks = 0.3;  // sigma; of the smaller over the larger drop
+  const ScaleGroup& g = groups_.all[line.group];
+  const double reach = kAside * g.kernels->sigma;
+  const std::size_t step = std::max<std::size_t>(1, line.range.size() / 24);
+  std::size_t looked_at = 0, one_sided = 0;
+  const auto grey = [&](const StripePoint& p, double aside) {
+    const int x = std::clamp(static_cast<int>(std::lround(p.x + aside * p.normal_x)), 0,
+                             search_.image.width - 1),
+              y = std::clamp(static_cast<int>(std::lround(p.y + aside * p.normal_y)), 0,
+                             search_.image.height - 1);
+    return static_cast<double>(search_.image(x, y));
+  };
+  for (std::size_t i = line.range.begin; i < line.range.end; i += step) {
+    const StripePoint& p = g.lines.points[i];
+    const double top = grey(p, 0), left = top - grey(p, -reach), right = top - grey(p, reach);
+    ++looked_at;
+    one_sided += std::min(left, right) < kLeastFlanks * std::max(left, right) ? 1U : 0U;
+  }
+  return 2 * one_sided > looked_at;
+}
+
+/// In the glow of a line that is already found broad kernels see it once more:
+/// most of what they look at belongs to the other line.
+template <class T>
+bool LineFinder<T>::runs_beside_another(const Followed& line) const {
+  const ScaleGroup& g = groups_.all[line.group];
+  const std::size_t step = sample_step(line.range);
+  std::size_t looked_at = 0, taken = 0;
+  for (std::size_t i = line.range.begin; i < line.range.end; i += step) {
+    const StripePoint& p = g.lines.points[i];
+    ++looked_at;
+    for (const double aside : {-1.5, -1.0, -0.5, 0.0, 0.5, 1.0, 1.5}) {
+      const auto x = static_cast<int>(std::lround(p.x + aside * g.kernels->sigma * p.normal_x)),
+                 y = static_cast<int>(std::lround(p.y + aside * g.kernels->sigma * p.normal_y));
+      if (!search_.image.contains(x, y)) continue;
+      const std::uint16_t label = following_.mask(x, y);
+      if (label == ExclusionMask::kFree || label == ExclusionMask::kDead || label >= line.first_label)
+        continue;
+      ++taken;
+      break;
+    }
+  }
+  return static_cast<double>(taken) > search_.tuning.most_taken * static_cast<double>(looked_at);
+}
+
+template <class T>
+void LineFinder<T>::keep_or_reject(const Followed& line) {
+  const double least = search_.least_widths * full_width_of(groups_.all[line.group].kernels->sigma);
+  if (length(line) >= search_.tuning.least_length * least && !runs_beside_another(line)) {
+    ++lines_;
+    if (is_edge(line))
+      futile_ += search_.tuning.futile_line + length(line) / groups_.all[line.group].kernels->sigma;
+    block(line, search_.tuning.blocked_by_line);
+    strongest_ = std::max(strongest_, height(line) * std::min(1.0, length(line) / (3 * least)));
+    return;
+  }
+  futile_ += search_.tuning.futile_line + length(line) / groups_.all[line.group].kernels->sigma;
+  block(line, search_.tuning.blocked_by_rejected);
+  take_back(line);
+}
+
+/// No line begins within so many sigma of this one any more, where its flanks
+/// would be followed over and over.
+template <class T>
+void LineFinder<T>::block(const Followed& line, double sigmas) {
+  const ScaleGroup& g = groups_.all[line.group];
+  const double reach = sigmas * g.kernels->sigma;
+  const std::size_t step = 2;
+  for (std::size_t i = line.range.begin; i < line.range.end; i += step) {
+    const StripePoint& p = g.lines.points[i];
+    for (double aside = -reach; aside <= reach; aside += 3) {
+      const auto x = static_cast<int>(std::lround(p.x + aside * p.normal_x)),
+                 y = static_cast<int>(std::lround(p.y + aside * p.normal_y));
+      if (search_.image.contains(x, y)) blocked(x, y) = 1;
+    }
+  }
+}
+
+template <class T>
+void LineFinder<T>::try_seed(const ScaleSeed& seed) {
+  if (!search_.image.contains(seed.x, seed.y) ||
+      search_.image.laser_colour(seed.x, seed.y) < LaserPlace::kSure)
+    return;
+  const std::uint16_t label = following_.mask(seed.x, seed.y);
+  if (label != ExclusionMask::kFree && label != ExclusionMask::kDead) return;
+  std::uint8_t& cell = tried(seed.level, seed.x, seed.y);
+  if (cell != 0 || blocked(seed.x, seed.y) != 0) return;
+  cell = 1;
+  const RungRange rungs = rungs_of(seed.level);
+  const auto ridge = best_scale(w_.pyramid, kernels_, seed.x, seed.y, rungs.first, rungs.last);
+  if (!ridge) {
+    futile_ += search_.tuning.futile_seed;
+    return;
+  }
+  auto line = follow(group_for(ridge->sigma, search_.tuning.shared_scale), seed.x, seed.y);
+  if (line) line = at_own_scale(*line, seed.x, seed.y);
+  if (line) keep_or_reject(*line);
+}
+
+template <class T>
+void LineFinder<T>::run() {
+  constexpr std::uint16_t kLastLabel = 60000;  // no line begins with fewer labels left than a long one uses
+  prepare();
+  const double most_futile = search_.tuning.futile_points * (search_.image.width + search_.image.height);
+  for (const ScaleSeed& seed : w_.seeds) {
+    if (labels_.current >= kLastLabel || futile_ > most_futile) return;
+    if (seed.rank * search_.brightest < 255 * search_.tuning.faintest_seed * strongest_) return;
+    try_seed(seed);
+    if (search_.stop_after > 0 && lines_ >= search_.stop_after) return;
+  }
+}
+
+}  // namespace
+
+ScaleGroup& ScaleGroups::add(const DerivativeKernels& kernels) {
+  if (count == all.size()) all.emplace_back();
+  ScaleGroup& group = all[count++];
+  group.kernels = group.binned_kernels = &kernels;
+  group.level = 0;
+  group.lines.clear();
+  return group;
+}
+
+template <class T>
+void follow_lines_at_own_scale(const OwnScaleSearch<T>& search, const LimitsMaker& limits,
+                               KernelCache& kernels, DirectionGuidedWorkspace<T>& following,
+                               OwnScaleWorkspace<T>& workspace, ScaleGroups& groups) {
+  groups.count = 0;
+  if (search.image.empty() || search.brightest <= 0) return;
+  LineFinder<T>(search, limits, kernels, following, workspace, groups).run();
+}
+
+template void follow_lines_at_own_scale<std::uint8_t>(const OwnScaleSearch<std::uint8_t>&, const LimitsMaker&,
+                                                      KernelCache&, DirectionGuidedWorkspace<std::uint8_t>&,
+                                                      OwnScaleWorkspace<std::uint8_t>&, ScaleGroups&);
+template void follow_lines_at_own_scale<std::uint16_t>(const OwnScaleSearch<std::uint16_t>&,
+                                                       const LimitsMaker&, KernelCache&,
+                                                       DirectionGuidedWorkspace<std::uint16_t>&,
+                                                       OwnScaleWorkspace<std::uint16_t>&, ScaleGroups&);
+
+}  // namespace lightstripe

@@ -1,0 +1,81 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+// Direction-guided following where nobody said how wide the stripes are: each line at its own scale.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "extraction/follow/direction_guided.h"
+#include "extraction/follow/follow_tuning.h"
+#include "extraction/follow/scale_ladder.h"
+#include "extraction/lines/line_set.h"
+
+namespace lightstripe {
+
+/// Lines that are followed at one scale.
+struct ScaleGroup {
+  const DerivativeKernels* kernels = nullptr;         ///< of the lines' scale in the image's own pixels
+  const DerivativeKernels* binned_kernels = nullptr;  ///< the same in those of the pyramid's level
+  int level = 0;                                      ///< of the pyramid, in which they are followed
+  RidgeLimits limits;
+  LineSet lines;
+};
+
+/// Groups of one image; those from `count` on only keep their memory.
+struct ScaleGroups {
+  std::vector<ScaleGroup> all;
+  std::size_t count = 0;
+
+  ScaleGroup& add(const DerivativeKernels& kernels);
+  std::span<ScaleGroup> used() { return {all.data(), count}; }
+};
+
+/// A place where a line may begin.
+struct ScaleSeed {
+  std::int32_t x = 0, y = 0;  ///< px
+  std::int16_t level = 0;     ///< of the pyramid, where it stands out
+  std::int16_t rank = 0;      ///< contrast, 0..255 of the brightest pixel
+};
+
+template <class T>
+struct OwnScaleWorkspace {
+  ImagePyramid<T> pyramid;
+  std::vector<ScaleSeed> found, seeds;
+  /// One a level: cells in which no line begins.
+  std::array<std::vector<std::uint8_t>, ImagePyramid<T>::kMostLevels> tried;
+  std::vector<std::uint8_t> blocked;  ///< cells of 4 x 4 pixels beside lines that were followed
+  std::vector<StripePoint> binned_points;
+};
+
+/// What is asked of the lines, and how the image is.
+template <class T>
+struct OwnScaleSearch {
+  ImageView<T> image;
+  double noise = 0;         ///< grey levels, as seen in the image
+  double brightest = 0;     ///< grey level
+  double least_widths = 5;  ///< shortest line, in full stripe widths
+  int stop_after = 0;       ///< lines; 0 = all
+  FollowTuning tuning;
+};
+
+/// Makes the limits for the kernels of one scale.
+struct LimitsMaker {
+  const void* facts;
+  RidgeLimits (*make)(const void* facts, const DerivativeKernels& kernels, double noise);
+  /// `noise`: as seen in the level of the pyramid, grey levels.
+  RidgeLimits operator()(const DerivativeKernels& kernels, double noise) const {
+    return make(facts, kernels, noise);
+  }
+};
+
+/// Appends the lines of `search.image` to `groups`. Where two scales claim one place, the line with the
+/// larger contrast comes first and keeps it.
+template <class T>
+void follow_lines_at_own_scale(const OwnScaleSearch<T>& search, const LimitsMaker& limits,
+                               KernelCache& kernels, DirectionGuidedWorkspace<T>& following,
+                               OwnScaleWorkspace<T>& workspace, ScaleGroups& groups);
+
+}  // namespace lightstripe

@@ -1,0 +1,194 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+#include "extraction/follow/scale_ladder.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "extraction/follow/line_point.h"
+#include "extraction/image/noise.h"
+
+namespace lightstripe {
+namespace {
+
+constexpr int kSmallestLevel = 24;     // px, of a binned image's sides
+constexpr double kClearOfNoise = 7;    // standard deviations of the strength
+constexpr double kFaintestHeight = 3;  // grey levels, of a stripe's peak
+constexpr double kMostAlong = 0.4;     // of the curvature across: a dot has 1, a line 0
+constexpr double kNoisyAlong = 2.5;    // standard deviations that noise may add to it
+constexpr double kOwnMaximum = 0.5;    // of the largest one: a narrower maximum as high as this is the line's
+constexpr std::size_t kSamples = 16;   // points of a line that are looked at
+
+template <class T>
+void halve(ImageView<T> from, Image<T>& to) {
+  to.width = from.width / 2;
+  to.height = from.height / 2;
+  to.pixels.resize(static_cast<std::size_t>(to.width) * static_cast<std::size_t>(to.height));
+  for (int y = 0; y < to.height; ++y) {
+    const T *a = from.row(2 * y), *b = from.row(2 * y + 1);
+    T* out = to.row(y);
+    for (int x = 0; x < to.width; ++x)
+      out[x] = static_cast<T>((std::uint32_t{a[2 * x]} + a[2 * x + 1] + b[2 * x] + b[2 * x + 1] + 2) / 4);
+  }
+}
+
+/// A place of the image in one level's pixels.
+double in_level(double coordinate, int bin) { return (coordinate + 0.5) / bin - 0.5; }
+
+template <class T>
+Derivatives derivatives_at(ImagePyramid<T>& pyramid, const DerivativeKernels& kernels, int level, double x,
+                           double y) {
+  const ImageView<T> image = pyramid.levels[static_cast<std::size_t>(level)];
+  const double bin = 1 << level;
+  return evaluate_derivatives(
+      image, to_phase(std::clamp(in_level(x, 1 << level), 0.0, image.width - 1.0)),
+      to_phase(std::clamp(in_level(y, static_cast<int>(bin)), 0.0, image.height - 1.0)), kernels, 0, 0,
+      pyramid.border_window);
+}
+
+/// The kernels of one rung in a level of the pyramid. Coarse pixels blur by their own width, once in the
+/// image and once in the kernel that is integrated over them: so much less is left to the kernel.
+const DerivativeKernels& rung_kernels(KernelCache& cache, int rung, int level) {
+  const double bin = 1 << level, sigma = ScaleLadder::sigma(rung);
+  const double variance = sigma * sigma - (bin * bin - 1) / 6;
+  return cache.close_to(std::sqrt(std::max(variance, 0.5 * sigma * sigma)) / bin);
+}
+
+/// Strength of the line near a place at one rung, grey levels / px^2 of the whole image; 0 where there is
+/// none.
+template <class T>
+double strength_at(ImagePyramid<T>& pyramid, KernelCache& cache, double x, double y, int rung) {
+  const int level = std::min(ScaleLadder::level(rung), pyramid.count - 1);
+  const double bin = 1 << level, per_area = 1 / (bin * bin);
+  const DerivativeKernels& kernels = rung_kernels(cache, rung, level);
+  const double noise = pyramid.noise[static_cast<std::size_t>(level)] * kernels.curvature_gain;
+  HessianAxes axes;
+  // Once more from the ridge, which the seed may miss by about a kernel's width.
+  for (int step = 0; step < 2; ++step) {
+    const Derivatives d = derivatives_at(pyramid, kernels, level, x, y);
+    axes = hessian_axes(d);
+    if (axes.across >= 0) return 0;
+    if (step == 1) break;
+    const double t = std::clamp(ridge_offset(d, axes.normal_x, axes.normal_y, axes.across), -kernels.sigma,
+                                kernels.sigma) *
+                     bin;
+    x += t * axes.normal_x;
+    y += t * axes.normal_y;
+  }
+  const double least = std::max(kClearOfNoise * noise, kFaintestHeight * kernels.matched_strength());
+  if (-axes.across < least || std::abs(axes.along) > -kMostAlong * axes.across + kNoisyAlong * noise)
+    return 0;
+  return -axes.across * per_area;
+}
+
+/// Where the parabola through three neighbouring values is largest, relative to the middle one.
+double peak_offset(double before, double at, double after) {
+  const double bend = before - 2 * at + after;
+  return bend < 0 ? std::clamp(0.5 * (before - after) / bend, -0.5, 0.5) : 0.0;
+}
+
+/// Mean strength across the known normals of a few points of a line, normalised.
+template <class T>
+double line_response(ImagePyramid<T>& pyramid, KernelCache& cache, std::span<const StripePoint> points,
+                     int rung) {
+  const int level = std::min(ScaleLadder::level(rung), pyramid.count - 1);
+  const double bin = 1 << level, sigma = ScaleLadder::sigma(rung);
+  const DerivativeKernels& kernels = rung_kernels(cache, rung, level);
+  const std::size_t step = std::max<std::size_t>(1, points.size() / kSamples);
+  double sum = 0;
+  for (std::size_t i = step / 2; i < points.size(); i += step) {
+    const StripePoint& p = points[i];
+    sum -= second_derivative(derivatives_at(pyramid, kernels, level, p.x, p.y), p.normal_x, p.normal_y);
+  }
+  return sum / (bin * bin) * std::pow(sigma, 1.5);
+}
+
+}  // namespace
+
+const DerivativeKernels& KernelCache::nearest(double sigma) {
+  constexpr double kPerOctave = 8;
+  return close_to(std::exp2(std::round(kPerOctave * std::log2(sigma)) / kPerOctave));
+}
+
+const DerivativeKernels& KernelCache::close_to(double sigma) {
+  constexpr double kPerOctave = 64;
+  const auto index = static_cast<int>(std::lround(kPerOctave * std::log2(sigma)));
+  const auto found = sets.find(index);
+  if (found != sets.end()) return found->second;
+  return sets.emplace(index, make_derivative_kernels(std::exp2(index / kPerOctave))).first->second;
+}
+
+double ScaleLadder::sigma(double rung) { return std::exp2(0.5 * rung); }
+int ScaleLadder::level(int rung) { return rung <= 2 ? 0 : (rung - 1) / 2; }
+
+template <class T>
+void build_pyramid(ImageView<T> image, double noise, ImagePyramid<T>& pyramid) {
+  pyramid.levels[0] = image;
+  pyramid.noise[0] = noise;
+  pyramid.count = 1;
+  for (std::size_t k = 1; k < ImagePyramid<T>::kMostLevels; ++k) {
+    const ImageView<T> finer = pyramid.levels[k - 1];
+    if (std::min(finer.width, finer.height) < 2 * kSmallestLevel) break;
+    Image<T>& coarser = pyramid.binned[k - 1];
+    halve(finer, coarser);
+    pyramid.levels[k] = coarser.view();
+    // White noise falls by half from level to level; grain, texture and a codec's noise by less.
+    const double pixels = static_cast<double>(coarser.width) * coarser.height;
+    const int thinning = std::max(1, static_cast<int>(pixels / 16000));
+    pyramid.noise[k] = std::max(noise / (1 << k), estimate_noise(pyramid.levels[k], thinning).seen);
+    ++pyramid.count;
+  }
+}
+
+template <class T>
+std::optional<ScaledRidge> best_scale(ImagePyramid<T>& pyramid, KernelCache& kernels, double x, double y,
+                                      int first, int last) {
+  std::array<double, ScaleLadder::kRungs + 2> normalised{};  // with a 0 at both ends
+  double largest = 0;
+  int best = -1;
+  for (int rung = std::max(first, 0); rung <= std::min(last, ScaleLadder::kRungs - 1); ++rung) {
+    const auto k = static_cast<std::size_t>(rung + 1);
+    normalised[k] = strength_at(pyramid, kernels, x, y, rung) * std::pow(ScaleLadder::sigma(rung), 1.5);
+    largest = std::max(largest, normalised[k]);
+  }
+  if (largest <= 0) return std::nullopt;
+  // A bright core in a wide glow has two maxima: the line is the narrower one.
+  for (int rung = 0; rung < ScaleLadder::kRungs && best < 0; ++rung) {
+    const auto k = static_cast<std::size_t>(rung + 1);
+    if (normalised[k] >= kOwnMaximum * largest && normalised[k] >= normalised[k + 1]) best = rung;
+  }
+  const auto k = static_cast<std::size_t>(best + 1);
+  const bool inside = normalised[k - 1] > 0 && normalised[k + 1] > 0;
+  const double offset = inside ? peak_offset(normalised[k - 1], normalised[k], normalised[k + 1]) : 0.0;
+  return ScaledRidge{ScaleLadder::sigma(best + offset), normalised[k]};
+}
+
+template <class T>
+double scale_of_line(ImagePyramid<T>& pyramid, KernelCache& kernels, std::span<const StripePoint> points,
+                     double sigma) {
+  constexpr int kLast = ScaleLadder::kRungs - 1;
+  std::array<double, ScaleLadder::kRungs> responses{};
+  const auto response = [&](int rung) {
+    double& r = responses[static_cast<std::size_t>(rung)];
+    if (r == 0) r = line_response(pyramid, kernels, points, rung);
+    return r;
+  };
+  int rung = std::clamp(static_cast<int>(std::lround(2 * std::log2(sigma))), 0, kLast);
+  while (rung > 0 && response(rung - 1) > response(rung)) --rung;
+  while (rung < kLast && response(rung + 1) > response(rung)) ++rung;
+  if (rung == 0 || rung == kLast) return ScaleLadder::sigma(rung);
+  return ScaleLadder::sigma(rung + peak_offset(response(rung - 1), response(rung), response(rung + 1)));
+}
+
+template void build_pyramid<std::uint8_t>(ImageView8, double, ImagePyramid<std::uint8_t>&);
+template void build_pyramid<std::uint16_t>(ImageView16, double, ImagePyramid<std::uint16_t>&);
+template std::optional<ScaledRidge> best_scale<std::uint8_t>(ImagePyramid<std::uint8_t>&, KernelCache&,
+                                                             double, double, int, int);
+template std::optional<ScaledRidge> best_scale<std::uint16_t>(ImagePyramid<std::uint16_t>&, KernelCache&,
+                                                              double, double, int, int);
+template double scale_of_line<std::uint8_t>(ImagePyramid<std::uint8_t>&, KernelCache&,
+                                            std::span<const StripePoint>, double);
+template double scale_of_line<std::uint16_t>(ImagePyramid<std::uint16_t>&, KernelCache&,
+                                             std::span<const StripePoint>, double);
+
+}  // namespace lightstripe

@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+// One image at several scales: how wide is the line at this place? Lindeberg, "Edge detection and ridge
+// detection with automatic scale selection", IJCV 30 (1998), section 5.6: the ridge strength normalised with
+// gamma = 3/4, t^(3/4) |L_pp| with t = sigma^2, is largest where sigma is the line's own standard deviation.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/image.h"
+#include "core/stripe.h"
+#include "extraction/kernels/kernels.h"
+
+namespace lightstripe {
+
+/// Kernels of the scales met so far, kept from frame to frame.
+struct KernelCache {
+  std::map<int, DerivativeKernels> sets;
+
+  /// The kernels nearest to `sigma` px of eight scales an octave, so that they are few.
+  const DerivativeKernels& nearest(double sigma);
+  /// Those within 0.5 % of `sigma`, for the few rungs of the ladder.
+  const DerivativeKernels& close_to(double sigma);
+};
+
+/// The image, and means of 2 x 2, 4 x 4 and 8 x 8 of its pixels: there broad kernels cost as little as narrow
+/// ones.
+template <class T>
+struct ImagePyramid {
+  static constexpr int kMostLevels = 4;
+
+  std::array<ImageView<T>, kMostLevels> levels;
+  std::array<double, kMostLevels> noise{};  ///< grey levels, as it is seen in each level
+  std::array<Image<T>, kMostLevels - 1> binned;
+  std::vector<T> border_window;
+  int count = 0;
+};
+
+/// `noise`: of the image, grey levels. Small images have fewer levels.
+template <class T>
+void build_pyramid(ImageView<T> image, double noise, ImagePyramid<T>& pyramid);
+
+/// The ladder of scales: half an octave from rung to rung.
+struct ScaleLadder {
+  static constexpr int kRungs = 9;
+  static double sigma(double rung);  ///< px, 1 ... 16; rungs may be broken
+  static int level(int rung);        ///< the pyramid's, in which the rung's kernels are 1.4 or 2 pixels wide
+};
+
+/// A ridge at the scale that suits it best.
+struct ScaledRidge {
+  double sigma = 0;       ///< px
+  double normalised = 0;  ///< sigma^1.5 times the strength
+};
+
+/// The best of the rungs from `first` to `last` near (x, y), px. Nothing where no rung shows a bright line
+/// that stands clear of the noise and is longer than wide.
+template <class T>
+std::optional<ScaledRidge> best_scale(ImagePyramid<T>& pyramid, KernelCache& kernels, double x, double y,
+                                      int first, int last);
+
+/// The scale at which the points of a line, found at `sigma` px, are strongest on average; px.
+template <class T>
+double scale_of_line(ImagePyramid<T>& pyramid, KernelCache& kernels, std::span<const StripePoint> points,
+                     double sigma);
+
+}  // namespace lightstripe

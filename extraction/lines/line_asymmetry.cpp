@@ -1,0 +1,149 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+#include "extraction/lines/line_asymmetry.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+namespace lightstripe {
+namespace {
+
+constexpr double kNarrow = 0.6, kBroad = 1.5;  // times the line's own scale
+/// What the two scales disagree by, times this, bounds the shift: glow of 15 to 50 % of the peak over 0.5 to
+/// 6 s, steps of a quarter to half the peak within 1.5 s, computed without noise (their largest shift is 2.5
+/// times as much, in most it is less).
+constexpr double kShiftByDisagreement = 2;
+
+/// Rows of one stretch, laid over each other by the pixel nearest to the line.
+struct MeanProfile {
+  double centre = 0;  ///< mean place of the line's centre against the middle pixel, px along the rows
+  double cosine = 1;
+  int rows = 0;
+};
+
+/// One row or column, around the line's pixel.
+template <class T>
+void add_row(ImageView<T> image, const StripePoint& p, int reach, std::vector<float>& profile,
+             MeanProfile& mean) {
+  const bool is_row = std::abs(p.normal_x) >= std::abs(p.normal_y);
+  const int x = static_cast<int>(std::floor(p.x + 0.5)), y = static_cast<int>(std::floor(p.y + 0.5));
+  const int at = is_row ? x : y, count = is_row ? image.width : image.height;
+  if (!image.contains(x, y) || at < reach || at + reach >= count) return;
+  const std::ptrdiff_t step = is_row ? 1 : image.stride;
+  // On the side of the point's normal first, so that rows and columns of one stretch agree.
+  const std::ptrdiff_t sign = (is_row ? p.normal_x : p.normal_y) >= 0 ? step : -step;
+  const T* pixel = image.row(y) + x - reach * sign;
+  for (float& sum : profile) {
+    sum += static_cast<float>(*pixel);
+    pixel += sign;
+  }
+  const double off = is_row ? p.x - x : p.y - y;
+  mean.centre += sign > 0 ? off : -off;
+  mean.cosine += std::abs(is_row ? p.normal_x : p.normal_y);
+  ++mean.rows;
+}
+
+/// Where a kernel of `sigma` px along the row sees the profile's centre, from mean.centre; px.
+double aside_at(std::span<const float> profile, double centre, double sigma) {
+  const int reach = static_cast<int>(profile.size() / 2);
+  double first = 0, second = 0, weights = 0, moment = 0;
+  for (int k = -reach; k <= reach; ++k) {
+    const double d = k - centre, g = std::exp(-0.5 * d * d / (sigma * sigma));
+    const double q = d * d / (sigma * sigma) - 1, grey = profile[static_cast<std::size_t>(k + reach)];
+    first += d * g * grey;
+    second += q * g * grey;
+    weights += q * g;
+    moment += g;
+  }
+  // The sampled second derivative of a constant must vanish.
+  double mean = 0;
+  for (int k = -reach; k <= reach; ++k) {
+    const double d = k - centre;
+    mean += std::exp(-0.5 * d * d / (sigma * sigma)) * profile[static_cast<std::size_t>(k + reach)];
+  }
+  second -= weights * mean / std::max(moment, 1e-9);
+  return second < 0 ? -first / second : 0.0;
+}
+
+/// The shift that one stretch [begin, end) points at, px across the line.
+template <class T>
+double shift_of(ImageView<T> image, std::span<const StripePoint> points, double sigma,
+                std::vector<float>& profile) {
+  const int reach = static_cast<int>(std::ceil(3 * kBroad * sigma)) + 1;
+  profile.assign(static_cast<std::size_t>(2 * reach + 1), 0.0F);
+  MeanProfile mean{0, 0, 0};
+  for (const StripePoint& p : points)
+    if ((p.flags & kStripeBridged) == 0) add_row(image, p, reach, profile, mean);
+  if (mean.rows < 4) return 0;
+  const double scale = sigma * mean.rows / mean.cosine, centre = mean.centre / mean.rows;
+  const double own = aside_at(profile, centre, scale);
+  const double narrow = aside_at(profile, centre, kNarrow * scale),
+               broad = aside_at(profile, centre, kBroad * scale);
+  return (broad - own) - (narrow - own);
+}
+
+double median_magnitude(std::vector<double>& values) {
+  for (double& v : values) v = std::abs(v);
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// 1-sigma scatter of the shifts from stretch to stretch, px.
+double scatter_of(const std::vector<double>& asides, std::vector<double>& scratch) {
+  scratch.clear();
+  for (std::size_t i = 1; i < asides.size(); ++i) scratch.push_back(asides[i] - asides[i - 1]);
+  return scratch.size() < 3 ? 0 : median_magnitude(scratch) * (1.4826 / 1.4142135624);
+}
+
+/// What stands out of the scatter: of the median of five stretches, or of one together with a neighbour.
+double clear_shift(const std::vector<double>& asides, std::size_t i, double scatter,
+                   std::vector<double>& scratch) {
+  const std::size_t first = i < 2 ? 0 : i - 2, last = std::min(asides.size(), i + 3);
+  scratch.assign(asides.begin() + static_cast<std::ptrdiff_t>(first),
+                 asides.begin() + static_cast<std::ptrdiff_t>(last));
+  const auto middle = scratch.begin() + static_cast<std::ptrdiff_t>(scratch.size() / 2);
+  std::nth_element(scratch.begin(), middle, scratch.end());
+  const double of_median = 2.5 * scatter / std::sqrt(static_cast<double>(last - first));
+  const double before = i > 0 ? std::abs(asides[i - 1]) : 0.0;
+  const double after = i + 1 < asides.size() ? std::abs(asides[i + 1]) : 0.0;
+  const double pair = std::min(std::abs(asides[i]), std::max(before, after));
+  return std::max({0.0, std::abs(*middle) - of_median, pair - 4 * scatter});
+}
+
+template <class T>
+void add_to_line(ImageView<T> image, double sigma, std::span<StripePoint> points, AsymmetryWorkspace& w) {
+  const auto wanted = static_cast<std::size_t>(std::clamp(6 * sigma, 12.0, 40.0));
+  const std::size_t stretches = std::max<std::size_t>(1, points.size() / wanted);
+  const auto begin_of = [&](std::size_t k) { return k * points.size() / stretches; };
+  w.asides.clear();
+  for (std::size_t k = 0; k < stretches; ++k)
+    w.asides.push_back(
+        shift_of<T>(image, points.subspan(begin_of(k), begin_of(k + 1) - begin_of(k)), sigma, w.profile));
+  const double scatter = scatter_of(w.asides, w.scatter);
+  for (std::size_t k = 0; k < stretches; ++k) {
+    const double shift = std::min(sigma, kShiftByDisagreement * clear_shift(w.asides, k, scatter, w.scatter));
+    for (StripePoint& p : points.subspan(begin_of(k), begin_of(k + 1) - begin_of(k))) {
+      if (shift > p.sigma_px && shift > 0.05) p.flags |= kStripeAsymmetric;
+      p.sigma_px = std::hypot(p.sigma_px, shift);
+    }
+  }
+}
+
+}  // namespace
+
+template <class T>
+void add_asymmetry(ImageView<T> image, const DerivativeKernels& kernels, LineSet& lines,
+                   AsymmetryWorkspace& w) {
+  for (const LineRange& r : lines.lines)
+    if (r.size() > 0)
+      add_to_line(image, kernels.sigma, std::span(lines.points.data() + r.begin, r.size()), w);
+}
+
+template void add_asymmetry<std::uint8_t>(ImageView8, const DerivativeKernels&, LineSet&,
+                                          AsymmetryWorkspace&);
+template void add_asymmetry<std::uint16_t>(ImageView16, const DerivativeKernels&, LineSet&,
+                                           AsymmetryWorkspace&);
+
+}  // namespace lightstripe

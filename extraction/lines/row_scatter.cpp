@@ -1,0 +1,244 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+#include "extraction/lines/row_scatter.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace lightstripe {
+namespace {
+
+constexpr double kIndependent = 0.3989422804;  // 1 / sqrt(2 pi): the grain of rows without correlation
+constexpr double kRootTwoPi = 2.5066282746;
+constexpr std::size_t kLeastRows = 24;
+constexpr std::size_t kLags = 6;              // rows
+using LagValues = std::array<double, kLags>;  ///< of rows 1, 2, ... apart
+/// A mean square over n rows scatters by some 1.7 / sqrt(n) of itself: misfits of six lags that differ by
+/// less than this over n are equally good. Rows count as independent unless they clearly are not.
+constexpr double kTolerance = 1, kToleranceOfWhite = 25;
+constexpr float kGap = std::numeric_limits<float>::quiet_NaN();
+
+/// The row or column that crosses a line at one point.
+struct Crossing {
+  bool is_row = false;
+  int index = 0;      ///< of the row or column
+  double centre = 0;  ///< px along it
+  double cosine = 1;  ///< of the angle between it and the line's normal
+};
+
+Crossing crossing_at(const StripePoint& p) {
+  const bool is_row = std::abs(p.normal_x) >= std::abs(p.normal_y);
+  const double across = is_row ? p.normal_x : p.normal_y, along = is_row ? p.normal_y : p.normal_x;
+  const double place = is_row ? p.y : p.x, centre = is_row ? p.x : p.y;
+  const int index = static_cast<int>(std::floor(place + 0.5));
+  // The line goes on in its own direction from the point to the row's middle.
+  return {is_row, index, centre - (index - place) * along / across, std::abs(across)};
+}
+
+/// The centre of one row less that of the line, px along the row, for kernels along the row only.
+/// `strength`: the line's, across it.
+template <class T>
+double row_offset(ImageView<T> image, const DerivativeKernels& kernels, const Crossing& c, double strength) {
+  const int count = c.is_row ? image.width : image.height;
+  const std::ptrdiff_t step = c.is_row ? 1 : image.stride;
+  const T* line = c.is_row ? image.row(c.index) : image.data + c.index;
+  const PhasedPosition at = to_phase(c.centre);
+  const float* weights = kernels.phase(at.phase) + kernels.pitch;  // of the first derivative
+  const int first = at.pixel - kernels.radius;
+  float slope = 0;
+  if (first >= 0 && first + kernels.taps <= count) {
+    const T* pixel = line + first * step;
+    for (int k = 0; k < kernels.taps; ++k, pixel += step) slope += weights[k] * static_cast<float>(*pixel);
+  } else {
+    for (int k = 0; k < kernels.taps; ++k)
+      slope += weights[k] * static_cast<float>(line[std::clamp(first + k, 0, count - 1) * step]);
+  }
+  return at.value() - c.centre + double{slope} / (strength * c.cosine * c.cosine);
+}
+
+/// Whether the line bends too much around a point for its rows to be told from its shape: a radius below 40
+/// sigma, by the points 8 sigma away to both sides.
+bool bends_at(const LineSet& lines, const LineRange& r, std::size_t i, double sigma) {
+  const auto reach = std::min(static_cast<std::size_t>(8 * sigma), (r.size() - 1) / 2);
+  const std::size_t middle = std::clamp(i, r.begin + reach, r.end - 1 - reach);
+  const StripePoint &a = lines.points[middle - reach], &b = lines.points[middle],
+                    &c = lines.points[middle + reach];
+  const double along_x = c.x - a.x, along_y = c.y - a.y, chord = std::hypot(along_x, along_y);
+  const double sagitta = std::abs((b.x - a.x) * along_y - (b.y - a.y) * along_x) / std::max(chord, 1e-9);
+  return 8 * sagitta * 40 * sigma > chord * chord;
+}
+
+/// Each row's centre less the line's, px across the line; rows in order, NaN where one does not follow the
+/// other. Returns the mean cosine.
+template <class T>
+double collect_offsets(ImageView<T> image, const DerivativeKernels& kernels, const LineSet& lines,
+                       const LineRange& r, std::vector<float>& offsets) {
+  offsets.clear();
+  Crossing last{};
+  double cosines = 0, used = 0;
+  for (std::size_t i = r.begin; i < r.end; ++i) {
+    const StripePoint& p = lines.points[i];
+    const Crossing c = crossing_at(p);
+    const bool outside = c.index < 0 || c.index >= (c.is_row ? image.height : image.width);
+    const bool usable = (p.flags & kStripeBridged) == 0 && p.strength > 0 && !outside;
+    if (!usable || bends_at(lines, r, i, kernels.sigma)) {
+      offsets.push_back(kGap);
+      continue;
+    }
+    if (c.is_row == last.is_row && c.index == last.index) continue;  // two points in one row
+    if (c.is_row != last.is_row || std::abs(c.index - last.index) != 1) offsets.push_back(kGap);
+    offsets.push_back(static_cast<float>(c.cosine * row_offset(image, kernels, c, p.strength)));
+    cosines += c.cosine;
+    used += 1;
+    last = c;
+  }
+  return used > 0 ? cosines / used : 1;
+}
+
+/// A sixth of the mean squared second difference of rows `lag` apart, which bends of the line hardly touch;
+/// single values of more than 16 times the mean count as that much, so that a spot or a crossing does not
+/// decide. -1 for too few rows.
+double second_difference(const std::vector<float>& offsets, std::size_t lag, std::vector<float>& squares) {
+  squares.clear();
+  for (std::size_t i = 0; i + 2 * lag < offsets.size(); ++i) {
+    const float difference = offsets[i + 2 * lag] - 2 * offsets[i + lag] + offsets[i];
+    bool joined = difference == difference;
+    for (std::size_t k = 1; k < 2 * lag; ++k) joined = joined && offsets[i + k] == offsets[i + k];
+    if (joined) squares.push_back(difference * difference * (1.0F / 6));
+  }
+  if (squares.size() < kLeastRows) return -1;
+  double mean = std::numeric_limits<double>::max();
+  for (int pass = 0; pass < 3; ++pass) {
+    const double limit = pass == 0 ? mean : 16 * mean;
+    double sum = 0;
+    for (const float s : squares) sum += std::min(double{s}, limit);
+    mean = sum / static_cast<double>(squares.size());
+  }
+  return mean;
+}
+
+/// What second_difference would be at a distance d along the line for a scatter of variance 1: rows are seen
+/// against the line, which is itself their mean by a Gaussian of sigma.
+double expected_difference(double grain, double sigma, double d) {
+  const auto smoothed = [&](double square) {
+    const double t2 = grain * grain, s2 = t2 + square;
+    const auto fallen = [&](double distance) { return 1 - std::exp(-0.5 * distance * distance / s2); };
+    return std::sqrt(t2 / s2) * (8 * fallen(d) - 2 * fallen(2 * d)) / 6;
+  };
+  return smoothed(0) - 2 * smoothed(sigma * sigma) + smoothed(2 * sigma * sigma);
+}
+
+/// Non-negative least squares of `seen` by two shapes, each lag weighted by its own size.
+struct TwoShares {
+  double white = 0, grained = 0, misfit = 0;
+};
+TwoShares fit_shares(const LagValues& seen, const LagValues& white, const LagValues& grained) {
+  double ww = 0, wg = 0, gg = 0, ws = 0, gs = 0, ss = 0;
+  for (std::size_t k = 0; k < seen.size(); ++k) {
+    const double scale = 1 / seen[k], w = white[k] * scale, g = grained[k] * scale;
+    ww += w * w;
+    wg += w * g;
+    gg += g * g;
+    ws += w;
+    gs += g;
+    ss += 1;
+  }
+  TwoShares out;
+  const double determinant = ww * gg - wg * wg;
+  if (determinant > 1e-9 * ww * gg) {
+    out.white = (gg * ws - wg * gs) / determinant;
+    out.grained = (ww * gs - wg * ws) / determinant;
+  }
+  if (determinant <= 1e-9 * ww * gg || out.white < 0) out = {0, gs / gg, 0};
+  if (out.grained < 0) out = {ws / ww, 0, 0};
+  out.misfit = ss - 2 * (out.white * ws + out.grained * gs) + out.white * out.white * ww +
+               2 * out.white * out.grained * wg + out.grained * out.grained * gg;
+  return out;
+}
+
+LagValues expected_differences(double grain, double sigma, double step) {
+  LagValues out{};
+  for (std::size_t k = 0; k < out.size(); ++k)
+    out[k] = expected_difference(grain, sigma, static_cast<double>(k + 1) * step);
+  return out;
+}
+
+/// Of the fits by every grain, the one of the smallest grain that is as good as the best within the
+/// statistics of so many rows: coarse grain shows little in the differences, but weighs much in the points.
+RowScatter fit_scatter(const LagValues& seen, double rows, double sigma, double step) {
+  constexpr int kGrains = 24;
+  const LagValues white = expected_differences(kIndependent * step, sigma, step);
+  std::array<RowScatter, kGrains> fits{};
+  std::array<double, kGrains> misfits{};
+  double least = std::numeric_limits<double>::max(), grain = 0.6 * step;
+  const double ratio = std::pow(2 * sigma / grain, 1.0 / (kGrains - 2));
+  for (std::size_t i = 0; i < kGrains; ++i) {
+    // The first is without grain.
+    const TwoShares shares = i == 0 ? fit_shares(seen, white, white)
+                                    : fit_shares(seen, white, expected_differences(grain, sigma, step));
+    fits[i] = i == 0 ? RowScatter{shares.white + shares.grained, kIndependent * step, 0, grain}
+                     : RowScatter{shares.white, kIndependent * step, shares.grained, grain};
+    misfits[i] = shares.misfit;
+    least = std::min(least, shares.misfit);
+    if (i > 0) grain *= std::max(ratio, 1.01);
+  }
+  if (misfits[0] <= least + kToleranceOfWhite / rows) return fits[0];
+  std::size_t best = 1;
+  while (misfits[best] > least + kTolerance / rows) ++best;
+  return fits[best];
+}
+
+/// Variance of a Steger point in white or fine-grained noise by its scale across the line, up to a factor.
+double variance_at_scale(double width, double sigma) {
+  const double s2 = std::max(width * width / 12, 0.25), sum = s2 + sigma * sigma;  // width = 2 sqrt(3) s
+  return sum * sum * sum / (sigma * sigma * sigma);
+}
+
+namespace {
+
+double smoothed_variance(double variance, double grain, double sigma) {
+  return variance * grain / std::sqrt(grain * grain + 2 * sigma * sigma);
+}
+
+}  // namespace
+
+}  // namespace
+
+double RowScatter::white_point(double sigma) const {
+  return smoothed_variance(white_variance, row_px, sigma);
+}
+
+double RowScatter::grained_point(double sigma) const {
+  return smoothed_variance(grain_variance, grain_px, sigma);
+}
+
+double RowScatter::grained_density() const { return kRootTwoPi * grain_variance * grain_px; }
+
+template <class T>
+RowScatter measure_row_scatter(ImageView<T> image, const DerivativeKernels& kernels, const LineSet& lines,
+                               const LineRange& range, RowScatterWorkspace& w) {
+  const double cosine = collect_offsets(image, kernels, lines, range, w.offsets), sigma = kernels.sigma;
+  LagValues seen{};
+  for (std::size_t k = 0; k < kLags; ++k) {
+    seen[k] = second_difference(w.offsets, k + 1, w.squares);
+    if (!(seen[k] > 0)) return {};
+  }
+  RowScatter scatter = fit_scatter(seen, static_cast<double>(w.squares.size()), sigma, 1 / cosine);
+  scatter.rows = static_cast<double>(w.squares.size());
+  // Rows that cross the line obliquely look at it with a scale smaller by the cosine.
+  const double width = lines.points[range.begin + range.size() / 2].width;
+  const double factor = variance_at_scale(width, sigma) / variance_at_scale(width, sigma * cosine);
+  scatter.white_variance *= factor;
+  scatter.grain_variance *= factor;
+  return scatter;
+}
+
+template RowScatter measure_row_scatter<std::uint8_t>(ImageView8, const DerivativeKernels&, const LineSet&,
+                                                      const LineRange&, RowScatterWorkspace&);
+template RowScatter measure_row_scatter<std::uint16_t>(ImageView16, const DerivativeKernels&, const LineSet&,
+                                                       const LineRange&, RowScatterWorkspace&);
+
+}  // namespace lightstripe

@@ -1,0 +1,94 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+#include "pipeline/features_job.h"
+
+#include <algorithm>
+
+#include "core/error.h"
+#include "io/atomic_file.h"
+#include "io/number_text.h"
+#include "io/tables.h"
+#include "io/yaml_binding.h"
+#include "parallel/parallel.h"
+#include "pipeline/job.h"
+#include "pipeline/run_record.h"
+
+namespace lightstripe {
+namespace {
+
+void append_estimate(std::string& out, const Estimate& estimate) {
+  out.push_back(',');
+  if (estimate.value) append_decimals(out, *estimate.value, 5);
+  out.push_back(',');
+  if (estimate.value && estimate.sigma) append_decimals(out, *estimate.sigma, 6);
+}
+
+std::string missing_of(const MeasuredFeatures& row, const FeatureFile& file) {
+  std::string out;
+  for (std::size_t i = 0; i < row.quantities.size(); ++i)
+    if (!row.quantities[i].value)
+      out += (out.empty() ? "" : " | ") + file.measurements[i].name + ": " + row.quantities[i].reason;
+  return out;
+}
+
+std::string along_table(const FeaturesResult& result) {
+  std::string out = "name,type,value,sigma,reason\n";
+  for (std::size_t i = 0; i < result.along.size(); ++i) {
+    out += csv_cell(result.file.along[i].name) + ',' + std::string(enum_name(result.file.along[i].type));
+    append_estimate(out, result.along[i]);
+    out += ',' + csv_cell(result.along[i].reason) + '\n';
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string features_table(const FeaturesResult& result) {
+  std::string out = "frame,travel";
+  for (const QuantityRecipe& one : result.file.measurements)
+    out += ',' + csv_cell(one.name) + ',' + csv_cell(one.name + "_sigma");
+  out += ",status,verdict,missing\n";
+  for (const MeasuredFeatures& row : result.rows) {
+    append_integer(out, row.frame);
+    out.push_back(',');
+    append_decimals(out, row.travel, 6);
+    for (const Estimate& estimate : row.quantities) append_estimate(out, estimate);
+    const std::string missing = missing_of(row, result.file);
+    out += missing.empty() ? ",ok," : ",incomplete,";
+    out += row.verdict + ',' + (missing.empty() ? "" : csv_cell(missing)) + '\n';
+  }
+  return out;
+}
+
+FeaturesResult measure_features_job(const FeaturesJob& job) {
+  const JobThreads threads(job.threads);
+  std::error_code none;
+  for (const std::filesystem::path& input : {job.profiles, job.features})
+    if (std::filesystem::equivalent(job.table, input, none))
+      throw Error(job.table.string(), "is an input", "name another file to write to");
+  FeaturesResult result;
+  read_yaml(job.features, result.file);
+  result.file.check(job.features.string());
+  result.profiles = read_profiles(job.profiles);
+  if (result.profiles.empty())
+    throw Error(job.profiles.string(), "has no rows", "give the sections of a scan");
+  result.rows.resize(result.profiles.size());
+  parallel_for(result.profiles.size(),
+               [&](std::size_t i) { result.rows[i] = measure_features(result.profiles[i], result.file); });
+  result.along = measure_along(result.rows, result.file);
+  for (const MeasuredFeatures& row : result.rows)
+    result.num_complete += std::all_of(row.quantities.begin(), row.quantities.end(),
+                                       [](const Estimate& e) { return e.value.has_value(); })
+                               ? 1
+                               : 0;
+  write_file(job.table, features_table(result));
+  if (!result.along.empty()) {
+    std::filesystem::path along = job.table;
+    along.replace_extension();
+    along += "_along.csv";
+    write_file(along, along_table(result));
+  }
+  return result;
+}
+
+}  // namespace lightstripe

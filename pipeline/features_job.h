@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+// Sections and a file of features on disk -> a table of measurements on disk.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "measure/features.h"
+
+namespace lightstripe {
+
+struct FeaturesJob {
+  std::filesystem::path profiles, features;
+  std::filesystem::path table = "measurements.csv";
+  int threads = 0;  ///< 0: all cores
+};
+
+struct FeaturesResult {
+  FeatureFile file;
+  std::vector<Profile> profiles;
+  std::vector<MeasuredFeatures> rows;
+  std::vector<Estimate> along;
+  int num_complete = 0;  ///< rows without an empty cell
+};
+
+/// Reads, measures and writes the table, and `<table>_along.csv` where the file asks for that.
+FeaturesResult measure_features_job(const FeaturesJob& job);
+
+/// frame,travel, each quantity with its _sigma, status, verdict, missing (which cells are empty and why).
+std::string features_table(const FeaturesResult& result);
+
+}  // namespace lightstripe

@@ -1,0 +1,126 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+#include "pipeline/record_frames.h"
+
+#include <fmt/format.h>
+
+#include <fstream>
+
+#include "core/error.h"
+#include "io/atomic_file.h"
+#include "io/number_text.h"
+#include "io/tables.h"
+
+namespace lightstripe {
+namespace {
+
+namespace fs = std::filesystem;
+constexpr int kMaxNamed = 8;
+
+std::int64_t nanoseconds_of(std::chrono::system_clock::time_point time) {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(time.time_since_epoch()).count();
+}
+
+/// A table that grows line by line, and is whole up to its last line whenever the program ends.
+class GrowingTable {
+ public:
+  GrowingTable(fs::path path, std::string_view header)
+      : path_(std::move(path)), out_(path_, std::ios::binary) {
+    add(std::string(header));
+  }
+  void add(const std::string& line) {
+    errno = 0;
+    out_ << line << std::flush;
+    if (!out_) cannot_write(path_, errno != 0 ? errno : EIO);
+  }
+
+ private:
+  fs::path path_;
+  std::ofstream out_;
+};
+
+std::string row_of(const LiveFrame& frame, const std::string& file) {
+  std::string row =
+      fmt::format("{},{},{},{},{},", frame.frame, frame.status == FrameStatus::kWhole ? file : "",
+                  name_of(frame.status), frame.camera_ns, nanoseconds_of(frame.arrived));
+  if (frame.encoder) append_shortest(row, *frame.encoder);
+  return row + "," + (frame.reason.empty() ? "" : csv_cell(frame.reason)) + "\n";
+}
+
+void count(const LiveFrame& frame, RecordSummary& summary) {
+  ++summary.frames;
+  if (frame.status == FrameStatus::kWhole) {
+    ++summary.whole;
+    return;
+  }
+  ++(frame.status == FrameStatus::kLost ? summary.lost : summary.incomplete);
+  const std::int64_t missing = summary.lost + summary.incomplete;
+  if (missing <= kMaxNamed)
+    summary.first_missing += fmt::format("{}{} ({}: {})", missing > 1 ? ", " : "", frame.frame,
+                                         name_of(frame.status), frame.reason);
+  if (missing == kMaxNamed + 1) summary.first_missing += " ...";
+}
+
+std::string value_text(const std::optional<double>& value) { return value ? shortest_text(*value) : "null"; }
+
+void write_settings(const RecordJob& job, const RecordSummary& summary, bool over) {
+  const CameraSettings& settings = summary.settings;
+  std::string text =
+      fmt::format("source: '{}'\ncamera: '{}'\nexposure_us: {}\ngain: {}\nframes_per_second: {}\n",
+                  job.source, settings.camera, value_text(settings.exposure_us), value_text(settings.gain),
+                  value_text(settings.frames_per_second));
+  if (over)
+    text += fmt::format("frames: {}\nwhole: {}\nincomplete: {}\nlost: {}\nseconds: {:.3f}\n", summary.frames,
+                        summary.whole, summary.incomplete, summary.lost, summary.seconds);
+  write_file(job.folder / "record.yaml", text);
+}
+
+}  // namespace
+
+std::optional<double> TravelOfFrames::at(const LiveFrame& frame) {
+  if (travel_.step_mm) return static_cast<double>(frame.frame) * *travel_.step_mm;
+  if (frame.status == FrameStatus::kLost) return std::nullopt;
+  if (travel_.mm_per_count) {
+    if (!frame.encoder) return std::nullopt;
+    if (!first_count_) first_count_ = frame.encoder;
+    return (*frame.encoder - *first_count_) * *travel_.mm_per_count;
+  }
+  if (!travel_.mm_per_s) return std::nullopt;
+  const double ns =
+      static_cast<double>(frame.camera_ns != 0 ? frame.camera_ns : nanoseconds_of(frame.arrived));
+  if (!first_ns_) first_ns_ = ns;
+  return (ns - *first_ns_) * 1e-9 * *travel_.mm_per_s;
+}
+
+RecordSummary record_frames(const RecordJob& job, const std::stop_token& stop,
+                            const std::function<void(const RecordSummary&)>& progress) {
+  PictureRecorder pictures(job.folder, job.format);
+  const auto source = open_live(job.source, {job.channel, 0});
+  RecordSummary summary;
+  summary.settings = source->settings();
+  write_settings(job, summary, false);
+  GrowingTable frames(job.folder / "frames.csv", "frame,file,status,camera_ns,arrived_ns,encoder,reason\n");
+  std::optional<GrowingTable> travel;
+  if (job.travel.any()) travel.emplace(job.folder / "travel.csv", "frame,travel_mm\n");
+  TravelOfFrames travel_of(job.travel);
+  const auto start = std::chrono::steady_clock::now();
+  while (job.max_frames == 0 || summary.frames < job.max_frames) {
+    summary.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    if (job.max_seconds > 0 && summary.seconds >= job.max_seconds) break;
+    const auto frame = source->next(stop);
+    if (!frame) break;
+    if (frame->status == FrameStatus::kWhole) pictures.write(frame->frame, frame->image);
+    frames.add(row_of(*frame, pictures.name(frame->frame)));
+    if (const auto at = travel ? travel_of.at(*frame) : std::nullopt) {
+      std::string row = fmt::format("{},", frame->frame);
+      append_decimals(row, *at, 6);
+      travel->add(row + "\n");
+    }
+    count(*frame, summary);
+    progress(summary);
+  }
+  write_settings(job, summary, true);
+  return summary;
+}
+
+}  // namespace lightstripe

@@ -1,0 +1,206 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+#include "io/laser_colour.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <opencv2/imgproc.hpp>
+
+#include "core/image.h"
+
+namespace lightstripe {
+namespace {
+
+// A line of light covers at least this share of a picture; fewer bright pixels are noise or dead ones.
+constexpr double kTopShare = 2e-4;
+constexpr std::int64_t kTopPixels = 16;
+constexpr int kClipped = 250;     // grey levels; cameras and codecs stop a little short of 255
+constexpr int kDarkestCast = 15;  // grey levels by which the background may be of the opposite colour
+constexpr int kWhite = 200;       // grey levels of two planes
+constexpr int kCoreReach = 10;    // px from a coloured rim into a white core, kCoreSteps times
+constexpr int kCoreSteps = 3;
+constexpr int kMargin = 4;  // px around what was found: the foot of the stripe
+
+cv::Mat square(int reach) {
+  return cv::getStructuringElement(cv::MORPH_RECT, {2 * reach + 1, 2 * reach + 1});
+}
+
+/// Every so many pixels of each row and column are enough for a statistic.
+int statistic_step(const cv::Mat& picture) {
+  return std::max(1, static_cast<int>(std::sqrt(static_cast<double>(picture.total()) / 40000)));
+}
+
+double usual_level(const cv::Mat& level) {
+  std::vector<std::int16_t> sizes;
+  const int step = statistic_step(level);
+  for (int y = step / 2; y < level.rows; y += step)
+    for (int x = step / 2; x < level.cols; x += step)
+      sizes.push_back(static_cast<std::int16_t>(std::abs(level.at<std::int16_t>(y, x))));
+  if (sizes.empty()) return 0;
+  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
+  std::nth_element(sizes.begin(), middle, sizes.end());
+  return 1.4826 * *middle;
+}
+
+double top_level(const cv::Mat& level) {
+  std::array<std::int64_t, 512> counts{};
+  for (int y = 0; y < level.rows; ++y) {
+    const auto* row = level.ptr<std::int16_t>(y);
+    for (int x = 0; x < level.cols; ++x) ++counts[static_cast<std::size_t>(std::clamp<int>(row[x], 0, 511))];
+  }
+  const auto wanted = std::max(
+      kTopPixels, static_cast<std::int64_t>(std::llround(kTopShare * static_cast<double>(level.total()))));
+  std::int64_t above = 0;
+  for (int k = 511; k > 0; --k) {
+    above += counts[static_cast<std::size_t>(k)];
+    if (above >= wanted) return k;
+  }
+  return 0;
+}
+
+struct LaserMasks {
+  cv::Mat sure, faint, core;  ///< CV_8U, 0 or 255; not widened
+};
+
+LaserMasks masks_of(const ColourRise& rise, const cv::Mat& plane) {
+  LaserMasks m;
+  m.sure = rise.level >= std::max({0.2 * rise.top, 5.0 * rise.noise, 6.0});
+  m.faint = rise.level >= std::max({0.02 * rise.top, 3.0 * rise.noise, 3.0});
+  const cv::Mat clipped = plane >= kClipped;
+  cv::Mat reached;
+  cv::dilate(m.sure, reached, square(kCoreReach));
+  m.core = clipped & reached;
+  for (int step = 1; step < kCoreSteps; ++step) {
+    cv::dilate(m.core, reached, square(kCoreReach));
+    m.core = clipped & reached;
+  }
+  return m;
+}
+
+/// A colour's picture in which the line's core is as bright as the darker one of its rims.
+cv::Mat filled_rise(const ColourRise& rise, const cv::Mat& core) {
+  cv::Mat filled = rise.level.clone(), closed;
+  cv::morphologyEx(rise.level, closed, cv::MORPH_CLOSE, square(kCoreReach));
+  closed.copyTo(filled, core);
+  return filled;
+}
+
+constexpr int kTrackJump = 3;      // px from row to row along one line
+constexpr int kShortestRun = 6;    // rows that a run must have to count
+constexpr int kMostContrast = 60;  // grey levels; more colour does not make it more of a line
+
+/// Length times contrast of the runs of rows whose strongest bumps lie one below the other; a bump has fallen
+/// `reach` px to both sides.
+double track_score(const cv::Mat& filled, const cv::Mat& plane, double least, int reach) {
+  double score = 0, run_score = 0;
+  int run = 0, last_x = -100, last_bump = 0;
+  const auto end_run = [&] {
+    if (run >= kShortestRun) score += run_score;
+    run = 0;
+    run_score = 0;
+  };
+  for (int y = 0; y < filled.rows; ++y) {
+    const auto* rise = filled.ptr<std::int16_t>(y);
+    const auto* raw = plane.ptr<std::uint8_t>(y);
+    int best = 0, best_x = -100;
+    for (int x = reach; x < filled.cols - reach; ++x) {
+      const int bump = rise[x] - std::max(rise[x - reach], rise[x + reach]);
+      if (bump <= best) continue;
+      best = bump;
+      best_x = x;
+    }
+    bool coloured = best >= least;
+    if (coloured) {
+      // Demosaicing gives the edges of grey things coloured fringes, faint against the edge itself.
+      const auto [low, high] = std::minmax_element(raw + best_x - reach, raw + best_x + reach + 1);
+      coloured = 5 * best >= *high - *low;
+    }
+    if (!coloured || std::abs(best_x - last_x) > kTrackJump) end_run();
+    if (coloured) {
+      ++run;
+      run_score += std::min({best, last_bump, kMostContrast});
+    }
+    last_x = coloured ? best_x : -100;
+    last_bump = coloured ? best : 0;
+  }
+  end_run();
+  return score;
+}
+
+/// White light has no colour to tell: there it takes that of the rims on both sides.
+void fill_white(const cv::Mat& white, cv::Mat& level) {
+  if (cv::countNonZero(white) == 0) return;
+  cv::Mat closed = level.clone();
+  closed.setTo(-255, white);
+  cv::morphologyEx(closed, closed, cv::MORPH_CLOSE, square(kCoreReach));
+  closed.setTo(0, white & (closed < 0));
+  closed.copyTo(level, white);
+}
+
+}  // namespace
+
+ColourRise colour_rise(const ColourPlanes& bgr, std::size_t plane) {
+  cv::Mat larger, difference, around;
+  cv::max(bgr.at((plane + 1) % 3), bgr.at((plane + 2) % 3), larger);
+  cv::subtract(bgr.at(plane), larger, difference, cv::noArray(), CV_16S);
+  // Beside a white core in red bloom the blue would rise as well, from far below to nought.
+  cv::max(difference, cv::Scalar::all(-kDarkestCast), difference);
+  ColourRise rise;
+  cv::blur(difference, rise.level, {3, 3});
+  const int reach = std::max(15, std::max(difference.cols, difference.rows) / 16);
+  cv::blur(difference, around, {2 * reach + 1, 2 * reach + 1});
+  rise.level -= around;
+  fill_white((bgr.at(plane) >= kWhite) & (larger >= kWhite), rise.level);
+  rise.noise = usual_level(rise.level);
+  rise.top = top_level(rise.level);
+  return rise;
+}
+
+std::vector<std::uint8_t> where_laser_colour(const ColourPlanes& bgr, std::size_t plane) {
+  const LaserMasks m = masks_of(colour_rise(bgr, plane), bgr.at(plane));
+  cv::Mat sure, faint;
+  cv::dilate(m.sure | m.core, sure, square(kMargin));
+  cv::dilate(m.faint | m.core, faint, square(kMargin));
+  std::vector<std::uint8_t> where;
+  where.reserve(sure.total());
+  for (int y = 0; y < sure.rows; ++y) {
+    const auto *s = sure.ptr<std::uint8_t>(y), *f = faint.ptr<std::uint8_t>(y);
+    for (int x = 0; x < sure.cols; ++x)
+      where.push_back(s[x] != 0 ? LaserPlace::kSure : f[x] != 0 ? LaserPlace::kFaint : LaserPlace::kNone);
+  }
+  return where;
+}
+
+LaserVote vote_for_laser(const ColourPlanes& bgr) {
+  constexpr int kLargest = 500;            // px; larger pictures are looked at in halves
+  constexpr double kLeastBump = 10;        // grey levels
+  constexpr double kLeastShare = 0.3;      // of the brightest colour; less is the core's own tint
+  constexpr double kLeastScore = 12 * 12;  // a dozen rows of a faint line
+  constexpr double kClippedShare = 0.05;   // of the line's pixels
+  ColourPlanes small = bgr;
+  const int halves = std::max(bgr[0].cols, bgr[0].rows) > kLargest ? 2 : 1;
+  if (halves == 2)
+    for (std::size_t k = 0; k < 3; ++k) cv::resize(bgr.at(k), small.at(k), {}, 0.5, 0.5, cv::INTER_AREA);
+  const std::array<ColourRise, 3> rises = {colour_rise(small, 0), colour_rise(small, 1),
+                                           colour_rise(small, 2)};
+  const double largest = std::max({rises[0].top, rises[1].top, rises[2].top});
+  LaserVote best;
+  for (const std::size_t plane : {2U, 1U, 0U}) {
+    const ColourRise& rise = rises.at(plane);
+    if (rise.top < kLeastBump) continue;
+    const LaserMasks masks = masks_of(rise, small.at(plane));
+    const double least = std::max({kLeastBump, 6.0 * rise.noise, kLeastShare * largest});
+    const cv::Mat filled = filled_rise(rise, masks.core);
+    double score = 0;
+    for (const int reach : {6, 16})
+      score = std::max({score, track_score(filled, small.at(plane), least, reach),
+                        track_score(filled.t(), small.at(plane).t(), least, reach)});
+    if (score < kLeastScore || score <= best.score) continue;
+    const int clipped = cv::countNonZero(masks.core), lit = cv::countNonZero(masks.sure | masks.core);
+    best = {static_cast<int>(plane), score, clipped > kClippedShare * lit};
+  }
+  return best;
+}
+
+}  // namespace lightstripe

@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+// Where in a colour picture the laser's light is, told by its colour; inside src/io.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <opencv2/core/mat.hpp>
+#include <vector>
+
+namespace lightstripe {
+
+using ColourPlanes = std::array<cv::Mat, 3>;  ///< 8 bits each: B, G, R
+
+/// How far one plane rises over the larger of the other two, against the mean of the surroundings, so that
+/// neither a wrong white balance nor a large coloured thing counts.
+struct ColourRise {
+  cv::Mat level;     ///< CV_16S, grey levels
+  double noise = 0;  ///< its usual level, 1 sigma, grey levels
+  double top = 0;    ///< level that the brightest 0.02 % of the pixels reach
+};
+ColourRise colour_rise(const ColourPlanes& bgr, std::size_t plane);
+
+/// One LaserPlace level a pixel. Pixels that rise by a fifth of the top are sure, those that rise out of the
+/// noise faint; a clipped white core belongs to the coloured rim around it; both are widened by 4 px.
+std::vector<std::uint8_t> where_laser_colour(const ColourPlanes& bgr, std::size_t plane);
+
+/// What speaks for a laser of one colour in a picture.
+struct LaserVote {
+  int plane = -1;        ///< 0, 1, 2 for B, G, R; -1: the picture shows no line of light that has a colour
+  double score = 0;      ///< length times contrast of what is line-like in this colour
+  bool clipped = false;  ///< the plane is clipped along a good part of the line
+};
+/// Votes for what is line-like, not for what is colourful.
+LaserVote vote_for_laser(const ColourPlanes& bgr);
+
+}  // namespace lightstripe

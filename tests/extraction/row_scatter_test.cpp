@@ -1,0 +1,69 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+#include "extraction/lines/row_scatter.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "extraction/extract_stripes.h"
+#include "real_light.h"
+
+namespace lightstripe {
+namespace {
+
+scenes::RealStripe straight(double contrast, double grain) {
+  scenes::RealStripe stripe;
+  stripe.centre = [](double) { return 80.3; };
+  stripe.height = 2000;
+  stripe.speckle = {contrast, grain};
+  stripe.shot_gain = 0;
+  return stripe;
+}
+
+/// Of the line that the kernels follow.
+RowScatter measured(const scenes::RealStripe& stripe) {
+  const Image8 picture = scenes::picture_of(stripe, 5);
+  ExtractionOptions options;
+  options.sigma = stripe.sigma;
+  const auto result = extract_stripes(picture.view(), options);
+  LineSet lines;
+  if (!result.stripes.empty()) lines.points = result.stripes.front().points;
+  lines.lines.push_back({0, lines.points.size()});
+  RowScatterWorkspace w;
+  return measure_row_scatter(picture.view(), make_derivative_kernels(stripe.sigma), lines, lines.lines[0], w);
+}
+
+TEST(RowScatter, WhiteNoiseIsFoundWhiteAndOfTheClosedFormulasSize) {
+  scenes::RealStripe stripe = straight(0, 1);
+  stripe.read_noise = 6;
+  const RowScatter scatter = measured(stripe);
+  EXPECT_EQ(scatter.grain_variance, 0);
+  // 0.564 noise / A: extraction.md, "Bounds". 2000 rows: 4 % (1 sigma of the variance).
+  EXPECT_NEAR(std::sqrt(scatter.white_point(stripe.sigma)) / (0.564 * 6 / stripe.peak), 1, 0.1);
+}
+
+TEST(RowScatter, SpeckleShowsItsGrain) {
+  for (const double grain : {0.8, 1.6, 2.4}) {
+    const RowScatter scatter = measured(straight(0.25, grain));
+    EXPECT_GT(scatter.grained_point(2), 10 * scatter.white_point(2)) << grain;
+    EXPECT_NEAR(scatter.grain_px / grain, 1, 0.25) << grain;
+  }
+}
+
+TEST(RowScatter, ABentLineWithoutNoiseHasNone) {
+  scenes::RealStripe stripe = straight(0, 1);
+  stripe.centre = [](double y) { return 80 + 30 * std::sin(y / 90); };
+  stripe.read_noise = 0.3;
+  EXPECT_LT(std::sqrt(measured(stripe).of_point(2)), 0.01);
+}
+
+TEST(RowScatter, AFewRowsSayNothing) {
+  scenes::RealStripe stripe = straight(0.3, 1);
+  stripe.height = 24;
+  EXPECT_EQ(measured(stripe).rows, 0);
+  EXPECT_EQ(measured(stripe).of_point(2), 0);
+}
+
+}  // namespace
+}  // namespace lightstripe

@@ -1,0 +1,74 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+#include "io/laser_colour.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/image.h"
+#include "io/choose_channel.h"
+
+namespace lightstripe {
+namespace {
+
+/// 320 x 240, grey room light of 60 levels, with a vertical stripe at x = 160: `laser` times a Gaussian of 3
+/// px is added to the planes B, G, R, each clipped at 255.
+ColourPlanes room_with_line(const std::array<double, 3>& laser) {
+  ColourPlanes planes;
+  for (std::size_t k = 0; k < 3; ++k) {
+    planes.at(k) = cv::Mat(240, 320, CV_8UC1);
+    for (int y = 0; y < 240; ++y)
+      for (int x = 0; x < 320; ++x) {
+        const double line = std::exp(-0.5 * (x - 160) * (x - 160) / 9.0);
+        planes.at(k).at<std::uint8_t>(y, x) =
+            static_cast<std::uint8_t>(std::clamp(60 + laser.at(k) * line, 0.0, 255.0));
+      }
+  }
+  return planes;
+}
+
+void add_square(ColourPlanes& planes, std::size_t plane, int x0, int y0, int size) {
+  for (int y = y0; y < y0 + size; ++y)
+    for (int x = x0; x < x0 + size; ++x) planes.at(plane).at<std::uint8_t>(y, x) = 220;
+}
+
+TEST(LaserVote, IsForWhatIsLikeALineNotForWhatIsColourful) {
+  ColourPlanes planes = room_with_line({10, 90, 10});  // green
+  add_square(planes, 2, 20, 20, 60);
+  add_square(planes, 2, 220, 120, 80);
+  EXPECT_EQ(vote_for_laser(planes).plane, 1);
+}
+
+TEST(LaserVote, AWhiteCoreHasTheColourOfItsRim) {
+  for (std::size_t plane = 0; plane < 3; ++plane) {
+    std::array<double, 3> laser = {300, 300, 300};  // crosstalk clips all three planes in the core
+    laser.at(plane) = 1500;
+    const LaserVote vote = vote_for_laser(room_with_line(laser));
+    EXPECT_EQ(vote.plane, static_cast<int>(plane));
+    EXPECT_TRUE(vote.clipped);
+  }
+}
+
+TEST(LaserVote, NothingWithoutColour) { EXPECT_EQ(vote_for_laser(room_with_line({90, 90, 90})).plane, -1); }
+
+TEST(WhereLaserColour, IsSureOnTheLineWithItsClippedCoreAndNowhereElse) {
+  const auto where = where_laser_colour(room_with_line({300, 300, 1500}), 2);
+  for (int y = 0; y < 240; ++y) {
+    const std::uint8_t* row = where.data() + static_cast<std::ptrdiff_t>(y) * 320;
+    for (int x = 152; x <= 168; ++x) EXPECT_EQ(row[x], LaserPlace::kSure) << x << ' ' << y;
+    for (const int x : {20, 100, 220, 300}) EXPECT_EQ(row[x], LaserPlace::kNone) << x << ' ' << y;
+  }
+}
+
+TEST(CountVotes, GreyAbstainsAndClippingIsSeenInAThird) {
+  using C = Channel;
+  EXPECT_EQ(count_votes(std::vector<C>{C::kGray, C::kGray, C::kRedLaser}), C::kRedLaser);
+  EXPECT_EQ(count_votes(std::vector<C>{C::kRedLaser, C::kGreenLaser, C::kGreenLaser}), C::kGreenLaser);
+  EXPECT_EQ(count_votes(std::vector<C>{C::kRedLaser, C::kRedClipped, C::kRedLaser}), C::kRedClipped);
+  EXPECT_EQ(count_votes(std::vector<C>{}), C::kGray);
+}
+
+}  // namespace
+}  // namespace lightstripe

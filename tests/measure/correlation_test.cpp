@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+#include "measure/correlation.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/random.h"
+
+namespace lightstripe {
+namespace {
+
+using Eigen::Vector2d;
+
+struct Chain {
+  Section section;
+  std::vector<FitPoint> points;
+
+  void add(double place, double residual) {
+    FitPoint point;
+    point.position = Vector2d(place, 0);
+    point.normal = Vector2d::UnitY();
+    point.residual = residual, point.weight = 1, point.index = static_cast<int>(section.size());
+    points.push_back(point);
+    section.push_back({point.position, 0, 0, 0, 1});
+  }
+};
+
+// Each stretch of 8 mm is off by 0.02 as a whole: that is what a stretch errs by.
+TEST(StretchError, IsTheOffsetThatAStretchShares) {
+  Chain chain;
+  Random random(3);
+  for (int i = 0; i < 20 * 81; ++i)  // 81 points a stretch: a new one begins beyond 8 mm
+    chain.add(0.1 * i, (i / 81 % 2 == 0 ? 0.02 : -0.02) + 0.002 * random.gaussian());
+  EXPECT_NEAR(stretch_error_mm(chain.section, chain.points), 0.02, 0.002);
+}
+
+// Independent noise of 0.02: the mean of 81 points errs by 0.02 / 9.
+TEST(StretchError, OfIndependentNoiseIsThatOfItsMean) {
+  Chain chain;
+  Random random(4);
+  for (int i = 0; i < 60 * 81; ++i) chain.add(0.1 * i, 0.02 * random.gaussian());
+  EXPECT_NEAR(stretch_error_mm(chain.section, chain.points), 0.02 / 9, 0.2 * 0.02 / 9);
+}
+
+// An autoregressive chain: 1 + 2 (a + a^2 + ...) = (1 + a) / (1 - a).
+TEST(CorrelatedPoints, AreThoseOfAnAutoregressiveChain) {
+  Chain chain;
+  Random random(5);
+  const double a = 0.8;
+  double last = 0;
+  for (int i = 0; i < 20000; ++i)
+    chain.add(0.1 * i, last = a * last + std::sqrt(1 - a * a) * 0.01 * random.gaussian());
+  EXPECT_NEAR(correlated_points(chain.section, chain.points), (1 + a) / (1 - a), 1.5);
+}
+
+}  // namespace
+}  // namespace lightstripe
