@@ -28,6 +28,8 @@ void say(const CommonOptions& options, const std::string& line) {
 void warn(const std::string& line) { put_line(stderr, "warning: " + line); }
 void say_error(const std::string& line) { put_line(stderr, "error: " + line); }
 
+void say_status(const std::string& line) { put_line(stderr, line); }
+
 int not_usable(const std::string& reason) {
   put_line(stderr, "not usable: " + reason);
   return kExitNotUsable;

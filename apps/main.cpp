@@ -12,6 +12,8 @@
 #include <opencv2/core/utils/logger.hpp>
 
 #include "apps/command.h"
+#include "apps/interrupt.h"
+#include "apps/self_description.h"
 #include "core/error.h"
 
 namespace {
@@ -62,6 +64,15 @@ std::string suggestion(const std::string& given, const std::vector<std::string>&
   return nearest.empty() ? "" : ", did you mean " + nearest + "?";
 }
 
+/// "Could not convert: --threads = abc" -> "--threads: 'abc' is no number".
+std::string in_our_words(const CLI::ParseError& error) {
+  const std::string text = error.what(), head = "Could not convert: ";
+  const std::size_t equals = text.find(" = ");
+  if (!text.starts_with(head) || equals == std::string::npos) return text;
+  const std::string value = text.substr(equals + 3);
+  return text.substr(head.size(), equals - head.size()) + ": '" + value + "' is no number";
+}
+
 int unknown_arguments(const CLI::App& app) {
   const auto parsed = app.get_subcommands();
   const auto extras = app.remaining(true);
@@ -99,6 +110,7 @@ int run(int argc, char** argv) {
   lightstripe::add_view_command(app, command);
   lightstripe::add_design_command(app, command);
   lightstripe::add_generate_command(app, command);
+  lightstripe::name_types(app);
   if (argc < 2) {
     std::fputs(app.help().c_str(), stderr);
     return lightstripe::kExitUsage;
@@ -120,7 +132,7 @@ int run(int argc, char** argv) {
     return unknown_arguments(app);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);
-    lightstripe::say_error(std::string(error.what()) + "; see " + command_line_help(app));
+    lightstripe::say_error(in_our_words(error) + "; see " + command_line_help(app));
     return lightstripe::kExitUsage;
   }
   return command();
@@ -145,7 +157,8 @@ int main(int argc, char** argv) {
   // OpenCV's own lines on stderr say less than our one error line, and would stand before it.
   cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
   open_standard_streams();
-  std::signal(SIGPIPE, SIG_IGN);           // messages that nobody reads never cost a result
+  std::signal(SIGPIPE, SIG_IGN);  // messages that nobody reads never cost a result
+  lightstripe::clean_up_at_signals();
   std::signal(SIGXFSZ, SIG_IGN);           // a limit on a file's size is an error of writing like a full disk
   FLAGS_minloglevel = google::GLOG_FATAL;  // Ceres tells of steps that it then takes back
   try {

@@ -137,6 +137,7 @@ MergeResult merge(const MergeJob& job) {
                 "merge fewer parts");
   guard_outputs(job.parts,
                 {job.output, ResumableFile::partial_of(job.output), job.output.string() + ".run.yaml"});
+  const TemporaryName half(ResumableFile::partial_of(job.output));  // unlike a scan's, it cannot be resumed
   ResumableFile out(job.output, table ? std::string(kProfilesHeader)
                                       : cloud_header(format, result.num_points, parts.front().origin));
   try {

@@ -4,13 +4,12 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <iterator>
 #include <set>
-#include <sstream>
 
 #include "core/error.h"
 #include "io/atomic_file.h"
+#include "io/own_files.h"
 #include "io/rig_file.h"
 #include "io/session_file.h"
 #include "io/yaml_binding.h"
@@ -22,12 +21,6 @@ namespace lightstripe {
 namespace {
 
 namespace fs = std::filesystem;
-
-bool is_numbered_png(const fs::path& file) {
-  const std::string stem = file.stem().string();
-  return file.extension() == ".png" && !stem.empty() &&
-         std::all_of(stem.begin(), stem.end(), [](char c) { return c >= '0' && c <= '9'; });
-}
 
 Session session_of(const Scene& scene, const ImagePlan& plan) {
   Session session;
@@ -100,77 +93,47 @@ std::vector<NamedPose> true_poses(const ImagePlan& plan, const Rigid3& rig_from_
 }
 
 constexpr const char* kMarkerFile = ".lightstripe-simulation";
-constexpr const char* kMarkerHead =
-    "# written by lightstripe simulate; it may replace and delete these files";
 
-/// What an earlier simulation has written into the folder, as its marker file says: the only files that may
-/// be replaced or deleted. The files without number are there whenever a marker is.
-std::set<std::string> written_before(const fs::path& output_folder) {
-  std::set<std::string> files;
+/// Pictures of the user that the session's patterns would catch.
+void refuse_foreign_pictures(const fs::path& output_folder, const fs::path& folder, const OwnFiles& own) {
   std::error_code error;
-  if (!fs::is_regular_file(output_folder / kMarkerFile, error)) return files;
-  std::istringstream lines(read_file(output_folder / kMarkerFile));
-  for (std::string line; std::getline(lines, line);)
-    if (!line.empty() && line.front() != '#' && line.find("..") == std::string::npos && line.front() != '/')
-      files.insert(line);
-  for (const char* file :
-       {"calibration.yaml", "scan.yaml", "calib/travel.csv", "scan/travel.csv", "scan/poses.csv",
-        "truth/stripes.csv", "truth/rig.yaml", "truth/scene.yaml", "truth/poses.csv"})
-    files.insert(file);
-  return files;
-}
-
-[[noreturn]] void refuse_foreign(const fs::path& file) {
-  throw Error(file.string(), "is there already, and no earlier simulation has written it",
-              "name an empty or new folder");
-}
-
-/// Files of the user where the simulation would write, or pictures of his that its patterns would catch.
-void refuse_foreign_files(const fs::path& output_folder, const std::set<std::string>& images,
-                          const std::set<fs::path>& folders, const std::set<std::string>& earlier) {
-  std::error_code error;
-  std::set<std::string> planned = images;
-  for (const char* file :
-       {"calibration.yaml", "scan.yaml", "calib/travel.csv", "scan/travel.csv", "scan/poses.csv",
-        "truth/stripes.csv", "truth/rig.yaml", "truth/scene.yaml", "truth/poses.csv"})
-    planned.insert(file);
-  for (const std::string& file : planned)
-    if (earlier.count(file) == 0 && fs::exists(output_folder / file, error))
-      refuse_foreign(output_folder / file);
-  for (const fs::path& folder : folders) {
-    if (!fs::is_directory(folder, error)) continue;
-    for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
-      const std::string file = entry.path().lexically_relative(output_folder).string();
-      if (is_numbered_png(entry.path()) && earlier.count(file) == 0) refuse_foreign(entry.path());
-    }
-  }
+  if (!fs::is_directory(folder, error)) return;
+  std::set<std::string> pictures;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error))
+    if (entry.path().extension() == ".png" && entry.path().filename().string().front() != '.')
+      pictures.insert(entry.path().lexically_relative(output_folder).generic_string());
+  own.refuse_foreign(pictures);
 }
 
 }  // namespace
 
+std::vector<std::string> session_files() {
+  return {"calibration.yaml", "scan.yaml",          "calib/travel.csv", "scan/travel.csv",
+          "scan/poses.csv",   "truth/stripes.csv",  "truth/rig.yaml",   "truth/scene.yaml",
+          "truth/poses.csv",  "truth/sections.csv", "truth/wear.csv",   "truth/README.md"};
+}
+
 void make_folders(const ImagePlan& plan, const fs::path& output_folder) {
-  std::set<std::string> images;
+  const std::vector<std::string> texts = session_files();
+  std::set<std::string> planned(texts.begin(), texts.end());
   std::set<fs::path> folders;
   for (const PlannedImage& image : plan.images) {
-    images.insert(image.file);
+    planned.insert(image.file);
     folders.insert((output_folder / image.file).parent_path());
   }
-  const std::set<std::string> earlier = written_before(output_folder);
-  refuse_foreign_files(output_folder, images, folders, earlier);
+  OwnFiles own(output_folder, kMarkerFile);
+  own.refuse_foreign(planned);
+  for (const fs::path& folder : folders) refuse_foreign_pictures(output_folder, folder, own);
   for (const fs::path& folder : folders) {
     std::error_code failure;
     fs::create_directories(folder, failure);
     if (failure)
       throw Error(folder.string(), "cannot be made: " + failure.message(), "choose another output folder");
   }
-  std::string marker = std::string(kMarkerHead) + "\n";
-  for (const std::string& image : images) marker += image + "\n";
+  const std::set<std::string> earlier = own.files();
   for (const std::string& file : earlier)
-    if (images.count(file) == 0) {
-      std::error_code ignored;
-      if (is_numbered_png(file)) fs::remove(output_folder / file, ignored);
-    }
-  write_file(output_folder / kMarkerFile, marker);
+    if (planned.count(file) == 0) own.remove(file);
+  own.claim(planned);
 }
 
 void write_truth(const fs::path& folder, const Scene& scene, const ImagePlan& plan, const Rig& rig,

@@ -13,9 +13,12 @@
 
 namespace lightstripe {
 
-/// Makes the images' folders and removes pictures of an earlier, longer run, which the session's patterns
-/// would catch. Only what the folder's marker file (.lightstripe-simulation) names is replaced or deleted: an
-/// Error where a file or a numbered picture of somebody else lies there, before anything is touched.
+/// What a simulation may write besides its pictures, relative to its folder.
+std::vector<std::string> session_files();
+
+/// Makes the images' folders and removes what an earlier, longer run has written, which the session's
+/// patterns would catch. Only what the folder's marker file (.lightstripe-simulation) names is replaced or
+/// deleted: an Error where a file or a picture of somebody else lies there, before anything is touched.
 void make_folders(const ImagePlan& plan, const std::filesystem::path& output_folder);
 
 /// The folder truth/. `stripes`: the rows of each image.

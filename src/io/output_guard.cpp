@@ -71,12 +71,17 @@ std::vector<fs::path> files_of(const Session& session) {
   for (const SessionSensor& sensor : session.sensors) {
     add_pattern(session.folder, sensor.board, files);
     add_pattern(session.folder, sensor.laser.value_or(""), files);
+    add_pattern(session.folder, sensor.board_only.value_or(""), files);
+    for (const auto& file : {sensor.bed, sensor.heights})
+      if (file) files.push_back(session.folder / *file);
     if (sensor.camera) files.push_back(session.folder / sensor.camera->substr(0, sensor.camera->rfind('#')));
   }
   if (session.motion) {
     add_pattern(session.folder, session.motion->board, files);
     files.push_back(session.folder / session.motion->travel);
   }
+  if (session.tool_poses) files.push_back(session.folder / *session.tool_poses);
+  if (!session.aprilgrid_file.empty()) files.push_back(session.folder / session.aprilgrid_file);
   return files;
 }
 
