@@ -213,6 +213,7 @@ int run_demo(const std::string& scene_file, bool wheel, const CommonOptions& com
           "\n{} points from {} frames of {} sensors, {:.0f} frames/s with {} threads (PNG decoding included)",
           scanned.summary.points, scanned.summary.frames, rig.sensors.size(),
           static_cast<double>(scanned.summary.frames) / scanned.seconds, thread_count(common.threads)));
+  own.release_missing();
   say(common, list_of_files(folder, !wear.empty()));
   return kExitDone;
 }

@@ -66,7 +66,7 @@ int run_extract(const ExtractArguments& arguments) {
   say(arguments.common, fmt::format("{} images, {} lines, {} points -> {}", result.images, result.lines,
                                     result.points, job.table.string()));
   if (!lost_overlay.empty()) {
-    warn("the table is written, pictures are not: " + lost_overlay);
+    say_error(lost_overlay);  // the table is written
     return kExitInputWrong;
   }
   if (!result.usable())

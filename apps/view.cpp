@@ -48,6 +48,7 @@ int run_view(const ViewArguments& arguments) {
     inputs.insert(inputs.end(), pictures.begin(), pictures.end());
   }
   guard_outputs(inputs, {output});
+  refuse_special_file(arguments.cloud);
   const auto start = std::chrono::steady_clock::now();
   const std::optional<Rig> rig = rig_of(arguments);
   std::optional<ReferenceShape> reference;

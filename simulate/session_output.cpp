@@ -136,6 +136,8 @@ void make_folders(const ImagePlan& plan, const fs::path& output_folder) {
   own.claim(planned);
 }
 
+void close_folders(const fs::path& output_folder) { OwnFiles(output_folder, kMarkerFile).release_missing(); }
+
 void write_truth(const fs::path& folder, const Scene& scene, const ImagePlan& plan, const Rig& rig,
                  const std::vector<std::string>& stripes) {
   const Rigid3 to_rig = rig_from_world(rig, plan.sensors);

@@ -21,6 +21,9 @@ std::vector<std::string> session_files();
 /// deleted: an Error where a file or a picture of somebody else lies there, before anything is touched.
 void make_folders(const ImagePlan& plan, const std::filesystem::path& output_folder);
 
+/// Behind the last file, or where the disk was full: the marker names what is there.
+void close_folders(const std::filesystem::path& output_folder);
+
 /// The folder truth/. `stripes`: the rows of each image.
 void write_truth(const std::filesystem::path& folder, const Scene& scene, const ImagePlan& plan,
                  const Rig& rig, const std::vector<std::string>& stripes);

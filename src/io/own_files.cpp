@@ -52,6 +52,21 @@ void OwnFiles::remove(const std::string& file) {
 
 void OwnFiles::claim(const std::set<std::string>& planned) {
   files_.insert(planned.begin(), planned.end());
+  write_marker();
+}
+
+void OwnFiles::release_missing() {
+  std::error_code error;
+  std::erase_if(files_, [&](const std::string& file) {
+    return !fs::exists(fs::symlink_status(folder_ / file, error));
+  });
+  if (files_.empty())
+    fs::remove(folder_ / marker_, error);
+  else
+    write_marker();
+}
+
+void OwnFiles::write_marker() const {
   std::string text = kHead;
   for (const std::string& file : files_) text += file + "\n";
   write_file(folder_ / marker_, text);

@@ -23,8 +23,12 @@ class OwnFiles {
   void remove(const std::string& file);
   /// Writes the marker: from now on these are ours as well. Before the files themselves are written.
   void claim(const std::set<std::string>& planned);
+  /// Gives up what was planned, but not written in the end; without a file of ours there is no marker.
+  void release_missing();
 
  private:
+  void write_marker() const;
+
   std::filesystem::path folder_;
   std::string marker_;
   std::set<std::string> files_;

@@ -66,32 +66,32 @@ TemporaryFolder* NothingLost::folder_ = nullptr;
 TEST_F(NothingLost, NoOutputIsAnInputOrAnotherOutput) {
   const auto before = contents(at(""));
   const std::string frame = "scan/solo/0001.png";
-  for (const std::string command :
-       {"extract " + frame + " -o " + frame,
-        "extract " + frame + " -o link.png",
-        "extract " + frame + " --overlay scan/solo -o s.csv",
-        std::string("calibrate calibration.yaml -o calibration.yaml"),
-        std::string("calibrate calibration.yaml -o r.yaml --report calib/travel.csv"),
-        std::string("calibrate calibration.yaml -o r.yaml --overlay overlay"),
-        std::string("calibrate calibration.yaml -o r.yaml --report ./r.yaml"),
-        std::string("verify calibration.yaml --rig rig.yaml -o rig.yaml"),
-        std::string("reconstruct scan.yaml -o n.ply --profiles scan/travel.csv"),
-        std::string("reconstruct scan.yaml -o n.ply --profiles ./n.ply"),
-        "reconstruct scan.yaml -o n.ply --preview " + frame,
-        std::string("reconstruct scan.yaml -o n.ply --view rig.yaml"),
-        std::string("reconstruct scan.yaml -o n.ply --mesh n.ply"),
-        "reconstruct scan.yaml -o n.ply --height-map scan/solo/0001.tif",
-        std::string("measure p.csv --kind rail -o p.csv"),
-        std::string("measure p.csv --kind rail -o m.csv --report p.csv"),
-        std::string("measure p.csv --kind rail -o m.csv --view m.csv"),
-        "measure p.csv --kind rail -o m.csv --scan scan.yaml --report " + frame,
-        std::string("measure p.csv --kind features --features features.yaml -o features.yaml"),
-        std::string("conicity --wheel S1002 --rail p.csv -o p.csv"),
-        std::string("view c.ply -o c.ply"),
-        std::string("merge c.ply -o c.ply"),
-        "bench " + frame + " -o " + frame,
-        std::string("simulate truth/scene.yaml -o ."),
-        std::string("demo truth/scene.yaml -o .")}) {
+  for (const std::string& command : std::vector<std::string>{
+           "extract " + frame + " -o " + frame,
+           "extract " + frame + " -o link.png",
+           "extract " + frame + " --overlay scan/solo -o s.csv",
+           std::string("calibrate calibration.yaml -o calibration.yaml"),
+           std::string("calibrate calibration.yaml -o r.yaml --report calib/travel.csv"),
+           std::string("calibrate calibration.yaml -o r.yaml --overlay overlay"),
+           std::string("calibrate calibration.yaml -o r.yaml --report ./r.yaml"),
+           std::string("verify calibration.yaml --rig rig.yaml -o rig.yaml"),
+           std::string("reconstruct scan.yaml -o n.ply --profiles scan/travel.csv"),
+           std::string("reconstruct scan.yaml -o n.ply --profiles ./n.ply"),
+           "reconstruct scan.yaml -o n.ply --preview " + frame,
+           std::string("reconstruct scan.yaml -o n.ply --view rig.yaml"),
+           std::string("reconstruct scan.yaml -o n.ply --mesh n.ply"),
+           "reconstruct scan.yaml -o n.ply --height-map scan/solo/0001.tif",
+           std::string("measure p.csv --kind rail -o p.csv"),
+           std::string("measure p.csv --kind rail -o m.csv --report p.csv"),
+           std::string("measure p.csv --kind rail -o m.csv --view m.csv"),
+           "measure p.csv --kind rail -o m.csv --scan scan.yaml --report " + frame,
+           std::string("measure p.csv --kind features --features features.yaml -o features.yaml"),
+           std::string("conicity --wheel S1002 --rail p.csv -o p.csv"),
+           std::string("view c.ply -o c.ply"),
+           std::string("merge c.ply -o c.ply"),
+           "bench " + frame + " -o " + frame,
+           std::string("simulate truth/scene.yaml -o ."),
+           std::string("demo truth/scene.yaml -o .")}) {
     const auto result = in(command);
     EXPECT_EQ(result.exit_code, 1) << command << "\n" << result.err;
     EXPECT_THAT(result.err, StartsWith("error: ")) << command;
@@ -158,7 +158,9 @@ TEST_F(NothingLost, TwoRunsWithOneTableDoNotMixIt) {
       "kill -CONT $first 2>/dev/null; wait $first; echo $? $second; cmp t.csv p.csv");
   // The first may be over before it is stopped: then both are done one after the other.
   EXPECT_THAT(result.out, ::testing::AnyOf(StartsWith("0 1\n"), StartsWith("0 0\n"))) << result.err;
-  if (result.out.substr(0, 3) == "0 1") EXPECT_THAT(result.err, HasSubstr("is being written by another run"));
+  if (result.out.substr(0, 3) == "0 1") {
+    EXPECT_THAT(result.err, HasSubstr("is being written by another run"));
+  }
   EXPECT_EQ(result.exit_code, 0) << "the table is another";
 }
 
@@ -246,10 +248,10 @@ TEST_F(NothingLost, NamesThatLeaveTheFolderAreRefused) {
 
 TEST_F(NothingLost, PicturesNamedWithStarsQuotesAndFormulas) {
   fs::create_directories(at("odd"));
-  for (const std::string name : {"a*.png", "=cmd|' /C calc'!A0.png", "it's {a}, \"b\".png"})
+  for (const std::string name : {"a*.png", "=cmd|' C calc'!A0.png", "it's {a}, \"b\".png"})
     fs::copy_file(at("scan/solo/0001.png"), at("odd") / name, fs::copy_options::skip_existing);
   const auto result = shell(
-      "cd odd; $LS extract 'a*.png' \"=cmd|' /C calc'!A0.png\" \"it's {a}, \\\"b\\\".png\" -o ../odd.csv");
+      "cd odd; $LS extract 'a*.png' \"=cmd|' C calc'!A0.png\" \"it's {a}, \\\"b\\\".png\" -o ../odd.csv");
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const std::string table = text_of(at("odd.csv"));
   EXPECT_THAT(table, HasSubstr("\na*.png,"));
@@ -273,7 +275,7 @@ TEST_F(NothingLost, RunRecordsAreYamlWhateverTheNames) {
 
 TEST_F(NothingLost, ASignalLeavesNoTemporaryFile) {
   fs::create_directories(at("signals"));
-  for (const std::string& command :
+  for (const std::string command :
        {"bench scan/solo/0001.png --repeat 100000 -o signals/b.csv",
         "extract $(for i in $(seq 300); do echo scan/solo/0001.png; done) -o signals/s.csv --threads 1"}) {
     for (const std::string signal : {"TERM", "INT", "HUP"}) {

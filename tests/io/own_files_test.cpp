@@ -35,6 +35,18 @@ TEST(OwnFiles, WhatIsRemovedIsNoLongerOurs) {
   EXPECT_THROW(OwnFiles(folder.path(), kMarker).refuse_foreign({"2.png"}), Error);
 }
 
+TEST(OwnFiles, WhatWasNotWrittenInTheEndIsGivenUp) {
+  const TempFolder folder;
+  OwnFiles own(folder.path(), kMarker);
+  own.claim({"1.png", "2.png"});
+  folder.write("1.png", "ours");
+  own.release_missing();
+  EXPECT_EQ(OwnFiles(folder.path(), kMarker).files(), std::set<std::string>{"1.png"});
+  fs::remove(folder / "1.png");
+  own.release_missing();
+  EXPECT_FALSE(fs::exists(folder / kMarker));
+}
+
 TEST(OwnFiles, AMarkerThatWasTamperedWithNamesNothingOutside) {
   const TempFolder folder;
   folder.write(std::string("in/") + kMarker, "../his.txt\n/etc/passwd\nx/../../his.txt\nours.txt\n");
