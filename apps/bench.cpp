@@ -13,6 +13,7 @@
 #include "apps/command.h"
 #include "apps/options.h"
 #include "core/error.h"
+#include "core/robust.h"
 #include "extraction/extract_stripes.h"
 #include "extraction/workspace.h"
 #include "io/atomic_file.h"
@@ -64,9 +65,7 @@ void time_in_rounds(std::vector<Candidate>& candidates, int repeat) {
       }
     }
   for (auto& [timing, work, times] : candidates) {
-    const auto middle = times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2);
-    std::nth_element(times.begin(), middle, times.end());
-    timing.median_ms = *middle;
+    timing.median_ms = upper_median(times);
   }
 }
 

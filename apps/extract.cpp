@@ -70,9 +70,9 @@ int run_extract(const ExtractArguments& arguments) {
     return kExitInputWrong;
   }
   if (!result.usable())
-    return not_usable(
-        "no stripe was found in any image; look at exposure and --channel, or give --stripe-width and "
-        "--thresholds");
+    return not_usable(fmt::format("no stripe was found in any image: {}; {}",
+                                  what_it_looks_like(result.impression),
+                                  what_to_do_about(result.impression)));
   return kExitDone;
 }
 

@@ -65,7 +65,7 @@ struct SensorObservations {
 struct MotionObservations {
   MotionType type = MotionType::kLinear;
   int sensor = 0;
-  bool rig_moves = true;
+  Moves moves = Moves::kRig;
   std::vector<BoardView> views;
   std::vector<double> travel;  ///< for each view, mm or degrees
 };

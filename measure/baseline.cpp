@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "core/error.h"
+#include "core/robust.h"
 #include "measure/robust_line.h"
 
 namespace lightstripe {
@@ -36,7 +37,7 @@ std::optional<double> median_near(const std::map<double, double>& distances, dou
   for (auto at = distances.lower_bound(s - kNearMm); at != distances.end() && at->first < s + kNearMm; ++at)
     near.push_back(at->second);
   if (near.size() < 3) return std::nullopt;
-  return median_of(std::move(near));
+  return median(std::move(near));
 }
 
 /// Fills what is missing in a straight way between the neighbours around a closed or open chain.
@@ -97,7 +98,7 @@ Baseline::Baseline(const std::vector<Profile>& profiles, const ReferenceShape& n
                    [](const Place& a, const Place& b) { return a.travel < b.travel; });
   std::vector<double> steps;
   for (std::size_t i = 1; i < places_.size(); ++i) steps.push_back(places_[i].travel - places_[i - 1].travel);
-  if (!steps.empty()) reach_ = 2 * median_of(std::move(steps));
+  if (!steps.empty()) reach_ = 2 * median(std::move(steps));
 }
 
 const ReferenceShape* Baseline::at(double travel) const {

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/robust.h"
 #include "measure/robust_line.h"
 
 namespace lightstripe {
@@ -47,11 +48,9 @@ void weigh(std::vector<FitPoint>& points, const ZoneMask& mask, double floor_mm,
     if (allowed(mask, point.zone)) distances.push_back(std::abs(point.residual));
   if (distances.empty()) return;
   const double scale =
-      std::clamp(1.4826 * median_of(std::move(distances)), floor_mm, std::max(floor_mm, cap_mm));
-  for (FitPoint& point : points) {
-    const double t = std::abs(point.residual) / (4.685 * scale);
-    point.weight = allowed(mask, point.zone) && t < 1 ? point.prior * (1 - t * t) * (1 - t * t) : 0.0;
-  }
+      std::clamp(kMadToSigma * median(std::move(distances)), floor_mm, std::max(floor_mm, cap_mm));
+  for (FitPoint& point : points)
+    point.weight = allowed(mask, point.zone) ? point.prior * tukey_weight(point.residual / scale) : 0.0;
 }
 
 NormalEquations normal_equations(const std::vector<FitPoint>& points) {

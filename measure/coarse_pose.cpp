@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "core/error.h"
+#include "core/robust.h"
 
 namespace lightstripe {
 namespace {
@@ -28,9 +29,7 @@ std::vector<Vector2d> thinned(const Section& section) {
 }
 
 double quantile(std::vector<double> values, double share) {
-  const auto at = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), values.begin() + at, values.end());
-  return values[static_cast<std::size_t>(at)];
+  return value_at_rank(values, static_cast<std::size_t>(share * static_cast<double>(values.size() - 1)));
 }
 
 /// The point of the section that is laid near the reference's top: the highest, a rail's in the middle of the

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/robust.h"
 #include "measure/robust_line.h"
 
 namespace lightstripe {
@@ -16,7 +17,6 @@ using Eigen::Matrix3d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kTukey = 4.685;   // 95 % efficient for normal noise
 constexpr double kFloorMm = 1e-6;  // of the robust scale
 constexpr int kRounds = 6;
 
@@ -29,12 +29,9 @@ ShapeFit unknown(const char* reason) {
 std::vector<double> tukey_weights(const std::vector<double>& residuals) {
   std::vector<double> sizes;
   for (const double r : residuals) sizes.push_back(std::abs(r));
-  const double scale = std::max(kFloorMm, 1.4826 * median_of(sizes));
+  const double scale = std::max(kFloorMm, kMadToSigma * median(sizes));
   std::vector<double> weights;
-  for (const double r : residuals) {
-    const double t = r / (kTukey * scale);
-    weights.push_back(std::abs(t) < 1 ? (1 - t * t) * (1 - t * t) : 0.0);
-  }
+  for (const double r : residuals) weights.push_back(tukey_weight(r / scale));
   return weights;
 }
 
@@ -42,7 +39,7 @@ std::vector<double> tukey_weights(const std::vector<double>& residuals) {
 double predicted_sigma(const FeaturePoints& points) {
   std::vector<double> sigmas;
   for (const SectionPoint& p : points) sigmas.push_back(p.sigma_mm);
-  return sigmas.empty() ? 0.0 : median_of(std::move(sigmas));
+  return sigmas.empty() ? 0.0 : median(std::move(sigmas));
 }
 
 /// Scatter, correlation and spread of the residuals that count, and the variance of one independent point.

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <vector>
 
+#include "core/robust.h"
 #include "measure/robust_line.h"
 #include "measure/surface_fit.h"
 
@@ -167,7 +168,7 @@ Estimate hollow_of(const PlacedSection& placed) {
     std::vector<double> heights;
     for (const Vector2d& p : placed.points)
       if (std::abs(p.x() - u) < kStripMm / 2 && std::abs(p.y()) < 20) heights.push_back(p.y());
-    if (!heights.empty()) strips.push_back({u, median_of(heights)});
+    if (!heights.empty()) strips.push_back({u, median(heights)});
   }
   if (strips.size() < 20 || strips.back().t < kSeenU)
     return Estimate::unknown("tread not seen to the field side");
@@ -223,10 +224,9 @@ std::string why_another_wheel(const PlacedSection& placed, const Tip& tip, doubl
     if (nominal) edge.push_back(*nominal - moved.y());
   }
   const std::string& name = placed.reference.name();
-  if (flange.size() >= kEnough && median_of(flange) > kFitsMm)
-    return fmt::format("the flange's top does not fit {} ({:.2f} mm): name the wheel", name,
-                       median_of(flange));
-  if (wear > kWornMm && edge.size() >= kEnough && median_of(edge) > kShareOfWear * wear)
+  if (flange.size() >= kEnough && median(flange) > kFitsMm)
+    return fmt::format("the flange's top does not fit {} ({:.2f} mm): name the wheel", name, median(flange));
+  if (wear > kWornMm && edge.size() >= kEnough && median(edge) > kShareOfWear * wear)
     return fmt::format("the tread is {:.1f} mm lower than {}'s out to the rim: name the wheel", wear, name);
   return "";
 }

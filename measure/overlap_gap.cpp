@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "core/robust.h"
 #include "measure/robust_line.h"
 
 namespace lightstripe {
@@ -30,7 +31,7 @@ std::map<int, double> heights_of(const PlacedSection& placed, int sensor) {
   }
   std::map<int, double> out;
   for (auto& [strip, heights] : strips)
-    if (heights.size() >= kFewest) out.emplace(strip, median_of(std::move(heights)));
+    if (heights.size() >= kFewest) out.emplace(strip, median(std::move(heights)));
   return out;
 }
 

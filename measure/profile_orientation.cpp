@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/robust.h"
 #include "measure/robust_line.h"
 
 namespace lightstripe {
@@ -19,7 +20,7 @@ double height_between(const std::vector<Vector2d>& points, double from, double t
   std::vector<double> heights;
   for (const Vector2d& p : points)
     if (p.x() >= from && p.x() <= to) heights.push_back(p.y());
-  return heights.empty() ? 0.0 : median_of(std::move(heights));
+  return heights.empty() ? 0.0 : median(std::move(heights));
 }
 
 void turn_rail(std::vector<Vector2d>& points) {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/robust.h"
 #include "measure/robust_line.h"
 
 namespace lightstripe {
@@ -42,7 +43,7 @@ std::vector<Sample1> strip_heights(const std::vector<Vector2d>& points, double t
     std::vector<double> heights;
     for (const Vector2d& p : points)
       if (std::abs(p.x() - u) < kStripMm / 2 && std::abs(p.y() - top_v) < kDepthMm) heights.push_back(p.y());
-    if (heights.size() >= 2) out.push_back({u, median_of(heights)});
+    if (heights.size() >= 2) out.push_back({u, median(heights)});
   }
   return out;
 }
@@ -170,7 +171,7 @@ Estimate head_area_loss(const PlacedSection& placed) {
       sectors[static_cast<std::size_t>(i)].differences.push_back((*radius * *radius - arm.squaredNorm()) / 2);
   }
   for (Sector& sector : sectors)
-    if (sector.differences.size() >= 1) sector.value = median_of(sector.differences);
+    if (sector.differences.size() >= 1) sector.value = median(sector.differences);
   const auto bridged = bridge_holes(sectors);
   if (!bridged) return Estimate::unknown("head not seen all round");
   double area = 0;

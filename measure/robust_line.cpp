@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "core/robust.h"
 
 namespace lightstripe {
 namespace {
@@ -48,9 +49,7 @@ std::optional<Weighted> solve(const std::vector<Sample1>& samples, const std::ve
 double robust_scale(std::vector<double> residuals, int parameters) {
   const auto n = static_cast<double>(residuals.size()), p = static_cast<double>(parameters);
   const auto order = std::min(residuals.size() - 1, static_cast<std::size_t>((n + p + 1) / 2));
-  std::nth_element(residuals.begin(), residuals.begin() + static_cast<std::ptrdiff_t>(order),
-                   residuals.end());
-  return 1.4826 * (1 + 5 / std::max(1.0, n - p)) * residuals[order];
+  return kMadToSigma * (1 + 5 / std::max(1.0, n - p)) * value_at_rank(residuals, order);
 }
 
 /// Weights of the next round.
@@ -65,22 +64,11 @@ void reweight(const std::vector<Sample1>& samples, const VectorXd& c, double min
   for (std::size_t i = 0; i < samples.size(); ++i)
     if (samples[i].weight > kTrusted * heaviest) trusted.push_back(residuals[i]);
   const double scale = std::max(min_scale, robust_scale(std::move(trusted), degree + 1));
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    const double t = residuals[i] / (4.685 * scale);  // 95 % efficient for normal noise
-    weights[i] = t < 1 ? samples[i].weight / heaviest * (1 - t * t) * (1 - t * t) : 0.0;
-  }
+  for (std::size_t i = 0; i < samples.size(); ++i)
+    weights[i] = samples[i].weight / heaviest * tukey_weight(residuals[i] / scale);
 }
 
 }  // namespace
-
-double median_of(std::vector<double> values) {
-  LIGHTSTRIPE_CHECK(!values.empty(), "the median of nothing");
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  if (values.size() % 2 == 1) return *middle;
-  // The upper one alone would lie too high, of two values by half their distance.
-  return (*middle + *std::max_element(values.begin(), middle)) / 2;
-}
 
 std::optional<PolynomialFit> fit_polynomial(const std::vector<Sample1>& samples, int degree,
                                             double min_scale) {
@@ -94,7 +82,7 @@ std::optional<PolynomialFit> fit_polynomial(const std::vector<Sample1>& samples,
   for (const Sample1& s : samples)
     if (s.weight > kTrusted * heaviest) values.push_back(s.value);
   if (values.empty()) return std::nullopt;
-  start(0) = median_of(values);
+  start(0) = median(values);
   reweight(samples, start, min_scale, weights);
   std::optional<Weighted> fit;
   for (int round = 0; round < kRounds; ++round) {

@@ -31,7 +31,4 @@ struct PolynomialFit {
 std::optional<PolynomialFit> fit_polynomial(const std::vector<Sample1>& samples, int degree,
                                             double min_scale);
 
-/// The middle value, the mean of the two middle ones of an even count; `values` must not be empty.
-double median_of(std::vector<double> values);
-
 }  // namespace lightstripe

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/robust.h"
 #include "measure/robust_line.h"
 
 namespace lightstripe {
@@ -32,7 +33,7 @@ void weigh_by_sigma(Section& section) {
   std::vector<double> sigmas;
   for (const SectionPoint& point : section) sigmas.push_back(point.sigma_mm);
   if (sigmas.empty()) return;
-  const double usual = 2 * median_of(std::move(sigmas));
+  const double usual = 2 * median(std::move(sigmas));
   if (!(usual > 0)) return;
   for (SectionPoint& point : section)
     if (point.sigma_mm > usual) point.weight = usual * usual / (point.sigma_mm * point.sigma_mm);

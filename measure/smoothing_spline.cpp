@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "core/robust.h"
 #include "measure/robust_line.h"
 
 namespace lightstripe {
@@ -102,7 +103,7 @@ double difference_noise(const std::vector<double>& values) {
   for (std::size_t i = 0; i + 3 < values.size(); ++i)
     differences.push_back(std::abs(values[i + 3] - 3 * values[i + 2] + 3 * values[i + 1] - values[i]));
   if (differences.empty()) return 0;
-  return 1.4826 * median_of(std::move(differences)) / std::sqrt(kVariance);
+  return kMadToSigma * median(std::move(differences)) / std::sqrt(kVariance);
 }
 
 }  // namespace lightstripe

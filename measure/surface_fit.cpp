@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/robust.h"
 #include "measure/robust_line.h"
 
 namespace lightstripe {
@@ -48,9 +49,7 @@ double predicted_error(const PlacedSection& placed, const SurfaceProbe& probe) {
       sigmas.push_back(placed.section[i].sigma_mm);
   }
   if (sigmas.empty()) return 0;
-  const auto quarter = sigmas.begin() + static_cast<std::ptrdiff_t>(sigmas.size() / 4);
-  std::nth_element(sigmas.begin(), quarter, sigmas.end());
-  return *quarter;
+  return value_at_rank(sigmas, sigmas.size() / 4);
 }
 
 }  // namespace

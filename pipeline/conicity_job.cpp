@@ -12,6 +12,7 @@
 #include <numbers>
 
 #include "core/error.h"
+#include "core/robust.h"
 #include "io/atomic_file.h"
 #include "io/csv_reader.h"
 #include "io/nominal_outlines.h"
@@ -88,9 +89,7 @@ std::optional<double> height_between(const std::vector<Vector2d>& points, double
   for (const Vector2d& p : points)
     if (p.x() >= from && p.x() <= to) heights.push_back(p.y());
   if (heights.empty()) return std::nullopt;
-  std::nth_element(heights.begin(), heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 2),
-                   heights.end());
-  return heights[heights.size() / 2];
+  return upper_median(heights);
 }
 
 /// Height at a place, straight between its neighbours.
@@ -232,6 +231,13 @@ Conicity run_conicity(const ConicityJob& job) {
   write_file(job.output, conicity_table(conicity));
   if (!job.contacts.empty()) write_file(job.contacts, contact_table(conicity));
   return conicity;
+}
+
+std::string conicity_at_3_mm_text(const Conicity& conicity) {
+  if (!conicity.at_3_mm) return "not known";
+  const double sigma = conicity.at_3_mm_sigma.value_or(0);
+  const std::string value = fmt::format("{:.4f}", *conicity.at_3_mm);
+  return sigma > 0 ? value + fmt::format(", sigma {:.4f}", std::max(sigma, 1e-4)) : value;
 }
 
 std::string conicity_table(const Conicity& conicity) {

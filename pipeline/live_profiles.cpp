@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "core/robust.h"
 #include "extraction/extract_stripes.h"
 #include "extraction/workspace.h"
 #include "io/number_text.h"
@@ -27,9 +28,7 @@ double median_sigma(const Profile& profile) {
   std::vector<double> sigmas;
   sigmas.reserve(profile.points.size());
   for (const ProfilePoint& point : profile.points) sigmas.push_back(point.sigma_mm);
-  const auto middle = sigmas.begin() + static_cast<std::ptrdiff_t>(sigmas.size() / 2);
-  std::nth_element(sigmas.begin(), middle, sigmas.end());
-  return *middle;
+  return upper_median(sigmas);
 }
 
 void measure(const LiveJob& job, Memory& memory, LiveMeasurement& measured) {

@@ -9,6 +9,7 @@
 #include <fstream>
 
 #include "core/error.h"
+#include "core/robust.h"
 #include "io/atomic_file.h"
 #include "io/nominal_outlines.h"
 #include "io/tables.h"
@@ -91,7 +92,7 @@ std::optional<double> median_rms(const std::vector<Profile>& profiles, const std
     if (registration.usable()) rms.push_back(registration.rms_mm);
   }
   if (2 * rms.size() < count || rms.empty()) return std::nullopt;
-  return median_of(std::move(rms));
+  return median(std::move(rms));
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "calib/board/board_shift.h"
 #include "calib/board/straight_lines.h"
 #include "core/error.h"
+#include "core/robust.h"
 #include "extraction/extract_stripes.h"
 #include "io/camera_file.h"
 #include "io/images.h"
@@ -225,7 +226,7 @@ CalibrationObservations empty_observations(const Session& session) {
   if (session.motion) {
     MotionObservations motion;
     motion.type = session.motion->type;
-    motion.rig_moves = session.motion->rig_moves;
+    motion.moves = session.motion->moves;
     for (std::size_t i = 0; i < session.sensors.size(); ++i)
       if (session.sensors[i].name == session.motion->sensor) motion.sensor = static_cast<int>(i);
     observations.motion = std::move(motion);
@@ -286,9 +287,7 @@ double common_circle_mm(const std::vector<ViewResult>& results) {
   for (const auto& result : results)
     if (result.view && result.circle_mm > 0) seen.push_back(result.circle_mm);
   if (seen.empty()) return 0;
-  const auto middle = seen.begin() + static_cast<std::ptrdiff_t>(seen.size() / 2);
-  std::nth_element(seen.begin(), middle, seen.end());
-  return *middle;
+  return upper_median(seen);
 }
 
 void check_size(SensorObservations& sensor, const ViewTask& task, const ViewResult& result) {

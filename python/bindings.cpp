@@ -80,7 +80,7 @@ void write_profiles(const fs::path& path, const py::iterable& profiles) {
 std::optional<py::dict> motion_of(const Rig& rig) {
   using py::literals::operator""_a;
   const Motion& motion = rig.motion;
-  const char* const moves = motion.rig_moves ? "rig" : "object";
+  const char* const moves = motion.moves == Moves::kRig ? "rig" : "object";
   switch (motion.type) {
     case MotionType::kNone:
       return std::nullopt;

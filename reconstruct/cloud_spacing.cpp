@@ -7,6 +7,7 @@
 #include <limits>
 #include <vector>
 
+#include "core/robust.h"
 #include "reconstruct/cloud.h"
 
 namespace lightstripe {
@@ -21,9 +22,7 @@ float distance(const CloudPoint& a, const CloudPoint& b) {
 
 double median(std::vector<float>& values) {
   if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+  return upper_median(values);
 }
 
 void add_along(const std::vector<CloudPoint>& frame, std::vector<float>& distances) {

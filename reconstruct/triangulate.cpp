@@ -98,7 +98,7 @@ ProfilePoint profile_point(const FrameGeometry& geometry, const PlanePoint& met,
 
 Rigid3 result_from_rig(const Motion& motion, const FramePosition& position) {
   if (position.world_from_rig) return *position.world_from_rig;
-  const double sign = motion.rig_moves ? 1.0 : -1.0;
+  const double sign = sign_of(motion.moves);
   Rigid3 out;
   if (motion.type == MotionType::kRotary) {
     const double angle = sign * position.travel * std::numbers::pi / 180.0;

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 
+#include "core/robust.h"
 #include "io/images.h"
 
 namespace lightstripe {
@@ -22,10 +23,7 @@ struct Span {
 /// not shrink the picture.
 Span robust_span(std::vector<float> values) {
   const auto quantile = [&](double part) {
-    const auto at =
-        values.begin() + static_cast<std::ptrdiff_t>(part * static_cast<double>(values.size() - 1));
-    std::nth_element(values.begin(), at, values.end());
-    return *at;
+    return value_at_rank(values, static_cast<std::size_t>(part * static_cast<double>(values.size() - 1)));
   };
   const float low = quantile(0.05), high = quantile(0.95), reach = std::max(high - low, 1e-3F);
   return {std::max(quantile(0.001), low - reach), std::min(quantile(0.999), high + reach) + 1e-3F};

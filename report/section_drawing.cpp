@@ -11,6 +11,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "core/error.h"
+#include "core/robust.h"
 
 namespace lightstripe {
 namespace {
@@ -32,11 +33,10 @@ cv::Scalar rgb_of(double difference) {
 double enlargement(std::vector<double> sizes) {
   constexpr double kLongestMm = 12;
   if (sizes.empty()) return 10;
-  const auto nearly_all =
-      sizes.begin() + static_cast<std::ptrdiff_t>(0.97 * static_cast<double>(sizes.size() - 1));
-  std::nth_element(sizes.begin(), nearly_all, sizes.end());
+  const double nearly_all =
+      value_at_rank(sizes, static_cast<std::size_t>(0.97 * static_cast<double>(sizes.size() - 1)));
   for (const double factor : {50.0, 20.0, 10.0, 5.0, 2.0})
-    if (*nearly_all * factor <= kLongestMm) return factor;
+    if (nearly_all * factor <= kLongestMm) return factor;
   return 1;
 }
 

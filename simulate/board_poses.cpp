@@ -154,7 +154,7 @@ BoardSurface make_board(const BoardPlan& plan, const Rigid3& world_from_board) {
 }
 
 Rigid3 moved_at(const Scene& scene, double travel) {
-  const double signed_travel = scene.motion.moves == Moves::kRig ? travel : -travel;
+  const double signed_travel = sign_of(scene.motion.moves) * travel;
   if (!scene.turns()) return {Eigen::Quaterniond::Identity(), signed_travel * Vector3d::UnitX()};
   const Eigen::Quaterniond turn(Eigen::AngleAxisd(signed_travel * kDegree, turning_axis(scene)));
   return {turn, scene.wheel.center - turn * scene.wheel.center};

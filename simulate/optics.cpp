@@ -85,7 +85,7 @@ Rig true_rig(const Scene& scene, const std::vector<SimulatedSensor>& sensors) {
     rig.sensors[i].rig_from_camera = rig_from_first * first_from_world * sensors[i].world_from_camera;
   rig.sensors.front().rig_from_camera.translation.setZero();
   rig.motion.type = moves ? MotionType::kLinear : MotionType::kNone;
-  rig.motion.rig_moves = scene.motion.moves == Moves::kRig;
+  rig.motion.moves = scene.motion.moves;
   if (scene.turns()) add_turning(scene, rig_from_world(rig, sensors), rig.motion);
   return rig;
 }

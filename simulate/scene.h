@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "core/fields.h"
+#include "core/rig.h"
 #include "simulate/scene_objects.h"
 #include "simulate/scene_rig.h"
 
@@ -21,11 +22,6 @@ namespace lightstripe {
 enum class BoardImages { kPair, kSingle };
 constexpr std::array<EnumName<BoardImages>, 2> enum_names(BoardImages) {
   return {{{BoardImages::kPair, "pair"}, {BoardImages::kSingle, "single"}}};
-}
-
-enum class Moves { kRig, kObject };
-constexpr std::array<EnumName<Moves>, 2> enum_names(Moves) {
-  return {{{Moves::kRig, "rig"}, {Moves::kObject, "object"}}};
 }
 
 /// The checkerboard and the poses that it is shown in: random, but seen whole by every sensor and crossed by

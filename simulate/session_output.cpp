@@ -35,9 +35,8 @@ Session session_of(const Scene& scene, const ImagePlan& plan) {
   }
   if (scene.motion.positions == 0) return session;
   const std::string& name = plan.sensors[motion_sensor(scene)].name;
-  session.motion =
-      SessionMotion{scene.turns() ? MotionType::kRotary : MotionType::kLinear, name,
-                    "calib/" + name + "/travel/*.png", "calib/travel.csv", scene.motion.moves == Moves::kRig};
+  session.motion = SessionMotion{scene.turns() ? MotionType::kRotary : MotionType::kLinear, name,
+                                 "calib/" + name + "/travel/*.png", "calib/travel.csv", scene.motion.moves};
   return session;
 }
 

@@ -11,6 +11,7 @@
 
 #include "core/error.h"
 #include "core/polyline_search.h"
+#include "core/robust.h"
 
 namespace lightstripe {
 namespace {
@@ -33,14 +34,7 @@ double median_distance(const Feet& feet, double search_mm) {
   std::vector<double> distances;
   distances.reserve(feet.size());
   for (const auto& foot : feet) distances.push_back(foot ? std::abs(foot->signed_distance) : search_mm);
-  const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
-  std::nth_element(distances.begin(), middle, distances.end());
-  return *middle;
-}
-
-double tukey_weight(double residual, double scale) {
-  const double t = residual / (4.685 * scale);  // 95 % efficient for normal noise
-  return std::abs(t) < 1 ? (1 - t * t) * (1 - t * t) : 0.0;
+  return upper_median(distances);
 }
 
 struct Step {
@@ -57,7 +51,7 @@ Step alignment_step(std::span<const Vector2d> measured, const Feet& feet, const 
   Vector3d g = Vector3d::Zero();
   for (std::size_t i = 0; i < feet.size(); ++i) {
     if (!feet[i] || feet[i]->beyond_end) continue;
-    const double weight = tukey_weight(feet[i]->signed_distance, scale);
+    const double weight = tukey_weight(feet[i]->signed_distance / scale);
     const Vector2d arm = (move * measured[i] - centre) / radius_mm, n = feet[i]->normal;
     const Vector3d J(arm.x() * n.y() - arm.y() * n.x(), n.x(), n.y());
     H += weight * J * J.transpose();
@@ -118,7 +112,8 @@ SectionAlignment align_section(std::span<const Vector2d> measured, std::span<con
   SectionAlignment out;
   Feet feet = find_feet(measured, out.shape_from_measured, search);
   for (int i = 0; i < options.max_iterations && !out.converged; ++i) {
-    const double scale = std::max(options.min_scale_mm, 1.4826 * median_distance(feet, options.search_mm));
+    const double scale =
+        std::max(options.min_scale_mm, kMadToSigma * median_distance(feet, options.search_mm));
     const Vector2d here = out.shape_from_measured * centre;
     const Step step = alignment_step(measured, feet, out.shape_from_measured, here, radius_mm, scale);
     out.shape_from_measured =

@@ -19,6 +19,7 @@
 #include <opencv2/calib3d.hpp>
 
 #include "calib/adjust/rig_state.h"
+#include "core/robust.h"
 
 namespace lightstripe {
 namespace {
@@ -144,12 +145,6 @@ Eigen::Matrix<double, 6, 6> solve(const std::vector<ToolView>& views, const std:
          N.topRightCorner<6, 6>() * N.bottomRightCorner<6, 6>().inverse() * N.bottomLeftCorner<6, 6>();
 }
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 /// Of the components: robust, or rms with the unknowns (12 of 6 n) allowed for.
 Spread spread_of(const std::vector<ToolView>& views, const std::vector<bool>& used, const Block& tool,
                  const Block& base, bool robust) {
@@ -166,8 +161,8 @@ Spread spread_of(const std::vector<ToolView>& views, const std::vector<bool>& us
     for (const double v : values) sum += v * v;
     return std::sqrt(sum / n / redundancy);
   };
-  return {std::max(1e-7, robust ? 1.4826 * median(turns) : rms(turns)),
-          std::max(1e-4, robust ? 1.4826 * median(shifts) : rms(shifts))};
+  return {std::max(1e-7, robust ? kMadToSigma * upper_median(turns) : rms(turns)),
+          std::max(1e-4, robust ? kMadToSigma * upper_median(shifts) : rms(shifts))};
 }
 
 void refuse_standing_tool(const std::vector<ToolView>& views) {
@@ -217,7 +212,7 @@ Rigid3 best_start(const std::vector<ToolView>& views) {
     std::vector<double> errors;
     for (const auto& view : views)
       errors.push_back(error_of(view, Block(start), Block(base_from_board)).tail<3>().norm());
-    const double error = median(std::move(errors));
+    const double error = upper_median(errors);
     if (!(error < least)) continue;
     least = error;
     best = start;

@@ -8,6 +8,7 @@
 
 #include "calib/adjust/reduced_covariance.h"
 #include "calib/adjust/solve_problem.h"
+#include "core/robust.h"
 
 namespace lightstripe {
 namespace {
@@ -72,9 +73,7 @@ double spread_of(std::vector<double> normalised, Spread spread) {
     for (const double r : normalised) sum += r * r;
     return std::sqrt(sum / static_cast<double>(normalised.size()));
   }
-  const auto middle = normalised.begin() + static_cast<std::ptrdiff_t>(normalised.size() / 2);
-  std::nth_element(normalised.begin(), middle, normalised.end());
-  return 1.4826 * *middle;
+  return kMadToSigma * upper_median(normalised);
 }
 
 /// Scales the sigmas of each group so that its normalised residuals have unit spread (variance components);

@@ -11,13 +11,13 @@ namespace {
 Motion motion_in_rig(const SessionViews& session, const MotionState& state, const Rigid3& rig_from_first) {
   Motion motion;
   motion.type = session.motion;
-  motion.rig_moves = session.rig_moves;
+  motion.moves = session.moves;
   if (motion.type != MotionType::kRotary) return motion;  // direction = x by the frame's definition
   motion.axis_point = rig_from_first * nearest_point_of_axis(state);
   motion.axis_direction = rig_from_first.rotation * state.direction;
   if (motion.axis_direction.y() < 0) {
     motion.axis_direction = -motion.axis_direction;
-    motion.rig_moves = !motion.rig_moves;
+    motion.moves = other(motion.moves);
   }
   return motion;
 }

@@ -19,7 +19,7 @@ Rigid3 rig_from_first(const RigState& state, MotionType motion, const Eigen::Vec
 Eigen::Vector3d nearest_point_of_axis(const MotionState& motion);
 
 /// The calibrated rig without its quality. Rotary motion: the axis is turned so that it grows with y; where
-/// that turns the sense of rotation, `rig_moves` changes sides, which is the same motion. Its point is the
+/// that turns the sense of rotation, `moves` changes sides, which is the same motion. Its point is the
 /// one nearest to the rig's origin.
 Rig rig_of(const SessionViews& session, const RigState& state, const Eigen::Vector3d& up);
 

@@ -59,13 +59,13 @@ struct SessionViews {
   std::vector<SessionView> views;  ///< sensor by sensor, motion views last
   MotionType motion = MotionType::kNone;
   int motion_sensor = 0;
-  bool rig_moves = true;
+  Moves moves = Moves::kRig;
   /// For each sensor and laser plane: boards that showed a stripe, before any was left out.
   std::vector<std::vector<int>> stripes_found;
   std::vector<std::string> left_out;  ///< views and stripes that were seen twice, one sentence each
 
   /// p_seen = p + sign * travel * direction: a rig that moves forward sees the board move backward.
-  double motion_sign() const { return rig_moves ? -1.0 : 1.0; }
+  double motion_sign() const { return -sign_of(moves); }
 };
 
 /// Thrown inside calib where the observations cannot determine a rig; calibrate_rig turns it into a summary.

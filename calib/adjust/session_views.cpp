@@ -117,7 +117,7 @@ void add_motion(SessionViews& result, const MotionObservations& motion) {
                     "the motion's sensor does not exist");
   result.motion = motion.type;
   result.motion_sensor = motion.sensor;
-  result.rig_moves = motion.rig_moves;
+  result.moves = motion.moves;
   for (std::size_t i = 0; i < motion.views.size(); ++i) {
     auto added = measured(motion.views[i], motion.sensor, result.target, 0);
     added.travel = motion.travel[i] * (motion.type == MotionType::kRotary ? kDegree : 1.0);

@@ -9,6 +9,8 @@
 
 #include "calib/assess/verdict.h"
 
+#include "core/robust.h"
+
 namespace lightstripe {
 namespace {
 
@@ -97,9 +99,7 @@ double median_depth_mm(const SessionViews& session, const RigState& state, std::
       depths.push_back((state.sensors[sensor].cam_from_first *
                         (state.first_from_board[static_cast<std::size_t>(view.pose)] * middle))
                            .z());
-  const auto half = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 2);
-  std::nth_element(depths.begin(), half, depths.end());
-  return *half;
+  return upper_median(depths);
 }
 
 /// The unit that would put the boards at a usual distance.

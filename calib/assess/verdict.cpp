@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/robust.h"
+
 namespace lightstripe {
 namespace {
 
@@ -70,9 +72,7 @@ void refuse_parallel_lasers(const SessionViews& session, const std::vector<Board
   for (std::size_t s = 0; s < spreads.size(); ++s) {
     for (auto angles : spreads[s].laser_angles_deg) {
       if (angles.empty()) continue;
-      std::nth_element(angles.begin(), angles.begin() + static_cast<std::ptrdiff_t>(angles.size() / 2),
-                       angles.end());
-      const double median = angles[angles.size() / 2];
+      const double median = upper_median(angles);
       if (median < kMinAngleDeg)
         throw NotUsable(
             fmt::format("sensor {}: the boards are nearly parallel to the laser plane ({:.1f} degrees in "

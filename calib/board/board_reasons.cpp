@@ -11,6 +11,8 @@
 #include <opencv2/features2d.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "core/robust.h"
+
 namespace lightstripe {
 namespace {
 
@@ -100,9 +102,7 @@ int round_blobs(const cv::Mat& gray) {
   std::vector<float> sizes;
   for (const auto& blob : blobs) sizes.push_back(blob.size);
   if (sizes.empty()) return 0;
-  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-  std::nth_element(sizes.begin(), middle, sizes.end());
-  const float median = *middle;
+  const float median = upper_median(sizes);
   return static_cast<int>(std::count_if(
       sizes.begin(), sizes.end(), [&](float size) { return std::abs(size - median) < 0.25F * median; }));
 }

@@ -8,6 +8,7 @@
 
 #include "calib/board/observe_board.h"
 #include "calib/observations.h"
+#include "core/robust.h"
 
 namespace lightstripe {
 namespace {
@@ -22,12 +23,6 @@ constexpr std::size_t kMinPatches = 8;
 cv::Mat as_mat(ImageView8 image) {
   return {image.height, image.width, CV_8UC1, const_cast<std::uint8_t*>(image.data),
           static_cast<std::size_t>(image.stride)};
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 /// Nearly half the distance to the next corner, 4 to 12 px.
@@ -81,8 +76,8 @@ double corner_shift_px(const std::vector<Vector2d>& a, const std::vector<Vector2
     if (is_seen(a[i]) && is_seen(b[i])) same.push_back((a[i] - b[i]).norm());
     if (is_seen(a[i]) && is_seen(other)) reversed.push_back((a[i] - other).norm());
   }
-  if (same.empty()) return reversed.empty() ? 0 : median(std::move(reversed));
-  return reversed.empty() ? median(same) : std::min(median(same), median(reversed));
+  if (same.empty()) return reversed.empty() ? 0 : upper_median(reversed);
+  return reversed.empty() ? upper_median(same) : std::min(upper_median(same), upper_median(reversed));
 }
 
 }  // namespace
@@ -91,7 +86,7 @@ std::optional<double> board_shift_px(ImageView8 laser, ImageView8 board, const s
                                      const Target& target) {
   const Patches patches = compare_patches(as_mat(laser), as_mat(board), corners);
   if (patches.visible < kMinPatches) return std::nullopt;
-  if (2 * patches.shifts_px.size() > patches.visible) return median(patches.shifts_px);
+  if (2 * patches.shifts_px.size() > patches.visible) return upper_median(std::vector(patches.shifts_px));
   // Something else stands there: the board, elsewhere?
   const BoardDetection again = detect_board(laser, target);
   if (!again.found) return std::nullopt;

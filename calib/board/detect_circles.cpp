@@ -16,6 +16,7 @@
 
 #include "calib/board/board_map.h"
 #include "calib/board/board_reasons.h"
+#include "core/robust.h"
 
 namespace lightstripe {
 namespace {
@@ -101,9 +102,7 @@ std::optional<Disc> measured(const cv::Mat& gray, const Vector2d& start, double 
       if (inside(x, y) && std::hypot(x - start.x(), y - start.y()) > 0.85 * radius_px)
         rim.push_back(gray.at<std::uint8_t>(y, x));
   if (rim.size() < 8) return std::nullopt;
-  const auto middle = rim.begin() + static_cast<std::ptrdiff_t>(rim.size() / 2);
-  std::nth_element(rim.begin(), middle, rim.end());
-  const double ground = *middle;
+  const double ground = upper_median(rim);
   const cv::Point at(static_cast<int>(std::lround(start.x())), static_cast<int>(std::lround(start.y())));
   const double disc = cv::mean(gray(cv::Rect(at.x - 1, at.y - 1, 3, 3) & picture))[0];
   if (std::abs(disc - ground) < kMinContrast) return std::nullopt;
@@ -139,9 +138,7 @@ double refine(const cv::Mat& gray, const Target& target, Corners& corners) {
   for (std::size_t i = 0; i < corners.size(); ++i)
     diameters.push_back(
         2 * std::sqrt(areas[i] * std::abs(map->derivative(corners[i]).determinant()) / std::numbers::pi));
-  const auto half = diameters.begin() + static_cast<std::ptrdiff_t>(diameters.size() / 2);
-  std::nth_element(diameters.begin(), half, diameters.end());
-  return *half;
+  return upper_median(diameters);
 }
 
 }  // namespace

@@ -18,6 +18,7 @@
 #include "calib/start/stripe_planes.h"
 #include "core/error.h"
 #include "core/random.h"
+#include "core/robust.h"
 
 namespace lightstripe {
 namespace {
@@ -111,9 +112,7 @@ double tolerance_px(const std::vector<Placed>& points, const std::vector<std::si
   std::vector<double> distances;
   distances.reserve(chosen.size());
   for (const auto i : chosen) distances.push_back(line.distance_px(points[i]));
-  const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
-  std::nth_element(distances.begin(), middle, distances.end());
-  return std::clamp(3 * 1.4826 * *middle, kMinTolerancePx, kStartTolerancePx);
+  return std::clamp(3 * kMadToSigma * upper_median(distances), kMinTolerancePx, kStartTolerancePx);
 }
 
 /// The line with the most points (RANSAC with fixed random numbers), refitted to those that belong to it.

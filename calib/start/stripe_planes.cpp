@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "core/robust.h"
+
 namespace lightstripe {
 
 using Eigen::Vector3d;
@@ -28,16 +30,10 @@ std::vector<const StripeInSpace*> near_plane(const std::vector<StripeInSpace>& s
 
 }  // namespace
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 double distance_to(const Plane& plane, const StripeInSpace& stripe) {
   std::vector<double> distances;
   for (const auto& p : stripe.points) distances.push_back(std::abs(plane.signed_distance(p)));
-  return median(std::move(distances));
+  return upper_median(distances);
 }
 
 StripeInSpace stripe_in_space(const InitialValues& values, std::size_t of, std::size_t board,
@@ -88,7 +84,7 @@ std::optional<Plane> least_median_plane(const std::vector<StripeInSpace>& stripe
       std::vector<double> distances;
       distances.reserve(n);
       for (const auto& stripe : stripes) distances.push_back(distance_to(fit.plane, stripe));
-      const double score = median(std::move(distances));
+      const double score = upper_median(distances);
       if (score >= best) continue;
       best = score;
       plane = fit.plane;
@@ -111,7 +107,7 @@ std::vector<const StripeInSpace*> stripes_in_one_plane(const std::vector<StripeI
   std::vector<double> distances;
   distances.reserve(roughly.size());
   for (const auto* stripe : roughly) distances.push_back(distance_to(plane, *stripe));
-  return near_plane(stripes, plane, kAgreement, 5 * median(std::move(distances)));
+  return near_plane(stripes, plane, kAgreement, 5 * upper_median(distances));
 }
 
 }  // namespace lightstripe

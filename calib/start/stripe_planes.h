@@ -31,8 +31,6 @@ std::vector<StripeInSpace> stripes_in_space(const InitialValues& values, int sen
 /// Median distance of the points, mm.
 double distance_to(const Plane& plane, const StripeInSpace& stripe);
 
-double median(std::vector<double> values);
-
 PlaneFit plane_through(const std::vector<const StripeInSpace*>& stripes);
 
 /// Least median over the views of the plane through two of them: up to half of the views may show something

@@ -128,7 +128,7 @@ VerifiedPair compare(const SeenBoard& a, const SeenBoard& b, const std::string& 
 
 /// A point seen at a travel (mm, degrees), brought back to travel 0; see docs/conventions.md, "Travel".
 Vector3d at_travel_0(const Motion& motion, double travel, const Vector3d& p) {
-  const double s = motion.rig_moves ? travel : -travel;
+  const double s = sign_of(motion.moves) * travel;
   if (motion.type == MotionType::kLinear) return p + s * motion.direction;
   const Eigen::AngleAxisd turn(s * std::acos(-1.0) / 180, motion.axis_direction);
   return motion.axis_point + turn * (p - motion.axis_point);

@@ -34,10 +34,19 @@ constexpr std::array<EnumName<MotionType>, 2> enum_names(MotionType) {
   return {{{MotionType::kLinear, "linear"}, {MotionType::kRotary, "rotary"}}};
 }
 
+/// Who moves while the other stands still.
+enum class Moves { kRig, kObject };
+constexpr std::array<EnumName<Moves>, 2> enum_names(Moves) {
+  return {{{Moves::kRig, "rig"}, {Moves::kObject, "object"}}};
+}
+/// +1 where the rig moves by the travel, -1 where the object does.
+constexpr double sign_of(Moves moves) { return moves == Moves::kRig ? 1.0 : -1.0; }
+constexpr Moves other(Moves moves) { return moves == Moves::kRig ? Moves::kObject : Moves::kRig; }
+
 /// How rig and object move against each other, in the rig frame.
 struct Motion {
   MotionType type = MotionType::kNone;
-  bool rig_moves = true;                                      ///< false: the object moves, p = p_seen - s * x
+  Moves moves = Moves::kRig;                                  ///< the object: p = p_seen - s * x
   Eigen::Vector3d direction = Eigen::Vector3d::UnitX();       ///< linear
   Eigen::Vector3d axis_point = Eigen::Vector3d::Zero();       ///< rotary, mm
   Eigen::Vector3d axis_direction = Eigen::Vector3d::UnitY();  ///< rotary, unit

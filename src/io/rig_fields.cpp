@@ -93,7 +93,7 @@ RigMotionFields motion_fields(const Motion& motion) {
     fields.axis_point = motion.axis_point;
     fields.axis_direction = motion.axis_direction;
   }
-  fields.moves = moving_part(motion.rig_moves);
+  fields.moves = motion.moves;
   return fields;
 }
 

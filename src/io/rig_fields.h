@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "core/rig.h"
-#include "io/moving_part.h"
 #include "io/yaml_fields.h"
 
 namespace lightstripe {
@@ -71,7 +70,7 @@ void visit_fields(V&& v, RigSensorFields& o) {
 struct RigMotionFields {
   std::optional<MotionType> type;
   std::optional<Eigen::Vector3d> direction, axis_point, axis_direction;
-  MovingPart moves = MovingPart::kRig;
+  Moves moves = Moves::kRig;
 };
 template <class V>
 void visit_fields(V&& v, RigMotionFields& o) {

@@ -113,7 +113,7 @@ Sensor checked_sensor(const RigSensorFields& fields, RigUse use, const Place& pl
 Motion checked_motion(const RigMotionFields& fields, const Place& place) {
   Motion motion;
   motion.type = (place / "type").given(fields.type);
-  motion.rig_moves = fields.moves == MovingPart::kRig;
+  motion.moves = fields.moves;
   const bool linear = motion.type == MotionType::kLinear;
   place.require(linear ? !fields.axis_point && !fields.axis_direction : !fields.direction,
                 "mixes the keys of linear and rotary motion",

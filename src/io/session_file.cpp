@@ -6,7 +6,6 @@
 #include <set>
 
 #include "core/error.h"
-#include "io/moving_part.h"
 #include "io/output_guard.h"
 #include "io/session_target.h"
 
@@ -47,7 +46,7 @@ constexpr std::array<EnumName<SessionMotionType>, 3> enum_names(SessionMotionTyp
 struct MotionFields {
   std::optional<SessionMotionType> type;
   std::optional<std::string> sensor, board, travel, file;
-  MovingPart moves = MovingPart::kRig;
+  Moves moves = Moves::kRig;
 };
 template <class V>
 void visit_fields(V&& v, MotionFields& o) {
@@ -65,6 +64,7 @@ struct SessionFields {
   std::optional<MotionFields> motion;
   std::optional<Eigen::Vector3d> up;
   std::optional<Channel> channel;
+  std::optional<std::string> polarity;  ///< as extraction: {polarity: ...}
   YamlSubtree extraction, calibration;
 };
 template <class V>
@@ -74,6 +74,7 @@ void visit_fields(V&& v, SessionFields& o) {
   v("motion", o.motion);
   v("up", o.up);
   v("channel", o.channel);
+  v("polarity", o.polarity);
   v("extraction", o.extraction);
   v("calibration", o.calibration);
 }
@@ -144,8 +145,7 @@ SessionMotion checked_motion(const MotionFields& fields, const std::vector<Sessi
   check.require(!fields.file, "motion.file", "belongs to poses", "give board and travel, or type: poses");
   const bool rotary = *fields.type == SessionMotionType::kRotary;
   return {rotary ? MotionType::kRotary : MotionType::kLinear, sensor,
-          check.text(fields.board, "motion.board"), check.text(fields.travel, "motion.travel"),
-          fields.moves == MovingPart::kRig};
+          check.text(fields.board, "motion.board"), check.text(fields.travel, "motion.travel"), fields.moves};
 }
 
 /// The file of the tool's poses.
@@ -178,6 +178,8 @@ Session read_session(const std::filesystem::path& path) {
                 "point it up in the first sensor's camera frame");
   if (fields.channel) session.channel = *fields.channel;
   session.extraction = fields.extraction;
+  if (session.extraction.origin.empty()) session.extraction.origin = path.string() + ": extraction";
+  if (fields.polarity) detail::add_entry(session.extraction, "polarity", *fields.polarity);
   session.calibration = fields.calibration;
   return session;
 }
@@ -208,7 +210,7 @@ std::string session_to_yaml(const Session& session) {
         motion.board,
         motion.travel,
         std::nullopt,
-        moving_part(motion.rig_moves)};
+        motion.moves};
   }
   if (session.tool_poses) {
     fields.motion.emplace();

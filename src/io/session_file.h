@@ -35,7 +35,7 @@ struct SessionMotion {
   std::string sensor;
   std::string board;   ///< file pattern
   std::string travel;  ///< travel.csv: image,travel_mm (rotary: image,angle_deg)
-  bool rig_moves = true;
+  Moves moves = Moves::kRig;
 };
 
 /// A calibration session; paths are relative to `folder`.

@@ -281,7 +281,8 @@ TEST_F(NothingLost, ASignalLeavesNoTemporaryFile) {
     for (const std::string signal : {"TERM", "INT", "HUP"}) {
       const auto result = shell("timeout -s " + signal + " 0.3 $LS " + command + " >/dev/null 2>&1; echo $?");
       EXPECT_THAT(result.out, Not(HasSubstr("134"))) << command;
-      EXPECT_TRUE(fs::is_empty(at("signals"))) << command << " " << signal;
+      for (const auto& left : fs::directory_iterator(at("signals")))
+        EXPECT_THAT(left.path().filename().string(), Not(HasSubstr(".tmp-"))) << command << " " << signal;
       fs::remove_all(at("signals"));
       fs::create_directories(at("signals"));
     }

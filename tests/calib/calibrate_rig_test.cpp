@@ -200,12 +200,12 @@ TEST(CalibrateRig, WithoutMotionTakesXFromTheLaserAndSaysSo) {
 TEST(CalibrateRig, AnObjectThatMovesTurnsTheDirection) {
   const auto truth = rail_rig();
   auto observations = observe(truth, perfect());
-  observations.motion->rig_moves = false;
+  observations.motion->moves = Moves::kObject;
   const auto result = calibrate_rig(observations, kTrueLens);
   ASSERT_TRUE(result.summary.usable) << result.summary.message;
   const Vector3d x_first = result.rig.sensors[0].rig_from_camera.rotation.conjugate() * Vector3d::UnitX();
   EXPECT_LT((x_first + truth.direction).norm(), 1e-7);
-  EXPECT_FALSE(result.rig.motion.rig_moves);
+  EXPECT_EQ(result.rig.motion.moves, Moves::kObject);
 }
 
 TEST(CalibrateRig, LeavesOutOutliersAndCountsThem) {
@@ -292,7 +292,7 @@ TEST(CalibrateRig, FindsARotaryAxis) {
   const Rigid3 board = testing::visible_board(truth, {.max_tilt_deg = 5}, random);
   auto& motion = *observations.motion;
   motion.type = MotionType::kRotary;
-  motion.rig_moves = false;
+  motion.moves = Moves::kObject;
   motion.views.clear();
   motion.travel.clear();
   for (int i = 0; i < 5; ++i) {
@@ -314,7 +314,7 @@ TEST(CalibrateRig, FindsARotaryAxis) {
       << "the point nearest to the origin";
   EXPECT_THAT(result.rig.quality.warnings, ::testing::Not(::testing::Contains(HasSubstr("motion"))));
   // The object turned by +angle about `axis`; about the opposite axis that is a rig that turns.
-  EXPECT_EQ(result.rig.motion.rig_moves, sense < 0);
+  EXPECT_EQ(result.rig.motion.moves == Moves::kRig, sense < 0);
 }
 
 /// Bit for bit, apart from the sign of nothing.

@@ -61,7 +61,7 @@ TEST(RigOf, TurnsARotaryAxisToGrowWithY) {
     const Rig rig = rig_of(session, state, {0, -1, 0});
     EXPECT_GT(rig.motion.axis_direction.y(), 0.99);
     // Camera x is -y of the rig here (y = z cross x), so the axis along +x is turned, and with it the sense.
-    EXPECT_EQ(rig.motion.rig_moves,
+    EXPECT_EQ(rig.motion.moves == Moves::kRig,
               rig.sensors[0].rig_from_camera.rotation.toRotationMatrix()(1, 0) * sign > 0);
   }
 }

@@ -44,7 +44,7 @@ Rig random_rig(std::uint64_t seed) {
   rig.sensors = {random_sensor("gauge", random), random_sensor("field", random)};
   rig.motion.type = MotionType::kLinear;
   rig.motion.direction = random_vector(random).normalized();
-  rig.motion.rig_moves = false;
+  rig.motion.moves = Moves::kObject;
   rig.quality.sensors = {{"gauge", 0.0812345, 0.05, 20, 19}};
   rig.quality.sigma = {{"gauge.camera.fx", 0.123456789}, {"field.plane.0.offset", 0.01}};
   rig.quality.section_shape_sigma_mm = 0.007;
@@ -81,7 +81,7 @@ TEST(RigFile, ReadsBackWhatWasWritten) {
     for (std::size_t i = 0; i < 2; ++i) expect_same(after.sensors[i], before.sensors[i]);
     EXPECT_EQ(after.motion.type, MotionType::kLinear);
     EXPECT_LT((after.motion.direction - before.motion.direction).norm(), 1e-15);
-    EXPECT_FALSE(after.motion.rig_moves);
+    EXPECT_EQ(after.motion.moves, Moves::kObject);
     EXPECT_EQ(after.quality.sensors[0].board_rms_px, 0.0812345);
     EXPECT_EQ(after.quality.sensors[0].stripe_views, 19);
     EXPECT_EQ(after.quality.sigma, before.quality.sigma);
@@ -103,7 +103,7 @@ TEST(RigFile, KeepsARotaryMotionAndAMissingOne) {
   EXPECT_EQ(motion.type, MotionType::kRotary);
   EXPECT_EQ(motion.axis_point, Eigen::Vector3d(1, 2, 3));
   EXPECT_LT((motion.axis_direction - rig.motion.axis_direction).norm(), 1e-15);
-  EXPECT_TRUE(motion.rig_moves);
+  EXPECT_EQ(motion.moves, Moves::kRig);
 }
 
 TEST(RigFile, WritesAsManyDistortionTermsAsItTakes) {

@@ -74,7 +74,7 @@ TEST(Session, ReadsTheContractsExample) {
   EXPECT_EQ(session.motion->type, MotionType::kLinear);
   EXPECT_EQ(session.motion->sensor, "gauge");
   EXPECT_EQ(session.motion->travel, "calib/travel.csv");
-  EXPECT_FALSE(session.motion->rig_moves);
+  EXPECT_EQ(session.motion->moves, Moves::kObject);
   EXPECT_EQ(session.up, Eigen::Vector3d(0, -1, 0.25));
   EXPECT_EQ(session.channel, Channel::kRedExcess);
   EXPECT_FALSE(session.extraction.empty());
@@ -101,7 +101,7 @@ TEST(Session, IsWrittenAsItIsRead) {
   EXPECT_EQ(session_to_yaml(after), text);
   EXPECT_EQ(after.sensors[1].laser_planes, 2);
   EXPECT_EQ(after.motion->board, before.motion->board);
-  EXPECT_FALSE(after.motion->rig_moves);
+  EXPECT_EQ(after.motion->moves, Moves::kObject);
   EXPECT_EQ(after.channel, Channel::kRedExcess);
   EXPECT_THAT(text, HasSubstr("extraction: {sigma: 3}\n"));
 }

@@ -72,11 +72,5 @@ TEST(FitPolynomial, OutliersOfEightSigmaCountNothing) {
   EXPECT_LT(std::abs(fit->value), 0.002);
 }
 
-TEST(MedianOf, AnEvenCountIsTheMeanOfTheMiddleTwo) {
-  EXPECT_EQ(median_of({4, 1}), 2.5);
-  EXPECT_EQ(median_of({9, 1, 3, 5}), 4);
-  EXPECT_EQ(median_of({9, 1, 3}), 3);
-}
-
 }  // namespace
 }  // namespace lightstripe

@@ -75,7 +75,7 @@ TEST(Triangulate, LinearTravelHasTheContractsSigns) {
   Rig rig = hand_rig();
   rig.motion.type = MotionType::kLinear;
   expect_at(hand_point(rig, {30, {}}).position, {130, 50, 500});
-  rig.motion.rig_moves = false;
+  rig.motion.moves = Moves::kObject;
   expect_at(hand_point(rig, {30, {}}).position, {70, 50, 500});
   expect_at(hand_point(rig, {-30, {}}).position, {130, 50, 500});
 }
@@ -84,15 +84,15 @@ TEST(Triangulate, WithoutACalibratedMotionTheRigTravelsAlongItsX) {
   expect_at(hand_point(hand_rig(), {30, {}}).position, {130, 50, 500});
 }
 
-Rig rotary_rig(bool rig_moves) {
+Rig rotary_rig(Moves moves) {
   Rig rig = hand_rig();
-  rig.motion = {MotionType::kRotary, rig_moves, Vector3d::UnitX(), {0, -7, 500}, Vector3d::UnitY()};
+  rig.motion = {MotionType::kRotary, moves, Vector3d::UnitX(), {0, -7, 500}, Vector3d::UnitY()};
   return rig;
 }
 
 TEST(Triangulate, RotarySectionIsPlaceAlongTheAxisAndRadius) {
   for (const double angle : {0.0, 90.0, -33.0}) {
-    const auto point = hand_point(rotary_rig(false), {angle, {}});
+    const auto point = hand_point(rotary_rig(Moves::kObject), {angle, {}});
     EXPECT_NEAR(point.u, 57, 1e-10);   // 50 - (-7)
     EXPECT_NEAR(point.v, 100, 1e-10);  // (100, ., 500) from the axis x = 0, z = 500
   }
@@ -102,8 +102,8 @@ TEST(Triangulate, RotaryTravelHasTheDocumentedSigns) {
   // A quarter turn about +y takes x to -z. The object turned by +90 degrees: what is now at +x from the axis
   // stood at +z at travel 0 (x = R z). The rig turned by +90 degrees: what it sees at its +x lies at its old
   // -z.
-  expect_at(hand_point(rotary_rig(false), {90, {}}).position, {0, 50, 600});
-  expect_at(hand_point(rotary_rig(true), {90, {}}).position, {0, 50, 400});
+  expect_at(hand_point(rotary_rig(Moves::kObject), {90, {}}).position, {0, 50, 600});
+  expect_at(hand_point(rotary_rig(Moves::kRig), {90, {}}).position, {0, 50, 400});
 }
 
 TEST(Triangulate, PosesPutThePointsIntoTheirWorld) {
