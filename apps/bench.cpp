@@ -19,6 +19,7 @@
 #include "extraction/workspace.h"
 #include "io/atomic_file.h"
 #include "io/images.h"
+#include "io/output_guard.h"
 #include "io/tables.h"
 #include "pipeline/job.h"
 
@@ -212,6 +213,8 @@ int run_bench_labelled(const BenchArguments& arguments, const ExtractionOptions&
 
 int run_bench(const BenchArguments& arguments) {
   const JobThreads one_thread(1);
+  const std::string output = arguments.common.output.empty() ? "bench.csv" : arguments.common.output;
+  guard_outputs({arguments.images.begin(), arguments.images.end()}, {output});
   ExtractionOptions options;
   apply_overrides(options, arguments.overrides);
   if (!arguments.labels.empty()) return run_bench_labelled(arguments, options);
@@ -228,7 +231,6 @@ int run_bench(const BenchArguments& arguments) {
     }
     for (const auto& method : bench.disagreements) disagreements += fmt::format(" {} in {};", method, file);
   }
-  const std::string output = arguments.common.output.empty() ? "bench.csv" : arguments.common.output;
   write_file(output, csv);
   say(arguments.common, "-> " + output);
   if (!disagreements.empty())

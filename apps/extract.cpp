@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <mutex>
+
 #include "apps/command.h"
 #include "apps/options.h"
 #include "apps/progress.h"
@@ -42,18 +44,33 @@ int run_extract(const ExtractArguments& arguments) {
   if (!arguments.common.output.empty()) job.table = arguments.common.output;
   std::vector<fs::path> overlays;
   if (!arguments.overlay_folder.empty()) overlays = overlay_files(arguments.images, arguments.overlay_folder);
+  job.other_outputs = overlays;
+  if (arguments.explain)
+    for (const fs::path& overlay : overlays) job.other_outputs.push_back(histogram_file(overlay));
+  std::string lost_overlay;  // a picture that cannot be drawn does not cost the table
+  std::mutex mutex;
   std::vector<std::string> explanations(arguments.explain ? job.images.size() : 0);
   job.on_image = [&](std::size_t i, const SeenImage& seen) {
-    if (!overlays.empty()) write_overlay(overlays[i], job.images[i], seen.result);
-    if (!arguments.explain) return;
-    explanations[i] = explain_extraction(job.images[i], seen.channel, job.extraction, seen.result);
-    if (!overlays.empty()) write_histogram(overlays[i], seen.image, seen.result);
+    if (arguments.explain)
+      explanations[i] = explain_extraction(job.images[i], seen.channel, job.extraction, seen.result);
+    if (overlays.empty()) return;
+    try {
+      write_overlay(overlays[i], job.images[i], seen.result);
+      if (arguments.explain) write_histogram(overlays[i], seen.image, seen.result);
+    } catch (const Error& error) {
+      const std::scoped_lock lock(mutex);
+      if (lost_overlay.empty()) lost_overlay = error.what();
+    }
   };
   if (arguments.explain) job.on_row = [&](std::size_t i) { say(arguments.common, explanations[i]); };
   const ExtractResult result = extract(job, progress_line(arguments.common.quiet));
   for (const std::string& warning : result.warnings) warn(warning);
   say(arguments.common, fmt::format("{} images, {} lines, {} points -> {}", result.images, result.lines,
                                     result.points, job.table.string()));
+  if (!lost_overlay.empty()) {
+    say_error(lost_overlay);  // the table is written
+    return kExitInputWrong;
+  }
   if (!result.usable())
     return not_usable(fmt::format("no stripe was found in any image: {}; {}",
                                   what_it_looks_like(result.impression),

@@ -18,6 +18,8 @@
 namespace lightstripe {
 namespace {
 
+namespace fs = std::filesystem;
+
 struct ReconstructArguments {
   CommonOptions common;
   std::string scan, rig, profiles, preview;
@@ -162,10 +164,15 @@ int run_reconstruct(const ReconstructArguments& arguments) {
   ReconstructJob job = job_of(arguments);
   if (arguments.dry_run) {
     const auto [first, end] = frames_to_reconstruct(job);
-    fmt::print("frames: {}:{}\n", first, end);
+    print_result(fmt::format("frames: {}:{}\n", first, end));
     return kExitDone;
   }
   CloudPreview preview;
+  const ScanProducts products = products_of(arguments, job);
+  for (const fs::path& output : {fs::path(arguments.preview), products.view, products.height_map, products.mesh})
+    if (!output.empty()) job.other_outputs.push_back(output);
+  if (!products.height_map.empty())
+    job.other_outputs.push_back(fs::path(products.height_map).replace_extension(".png"));
   if (!arguments.preview.empty()) draw_preview_of(job, preview, arguments.preview);
   std::optional<GrowingView> growing;
   if (job.follow && !arguments.products.view.empty()) {
@@ -175,7 +182,7 @@ int run_reconstruct(const ReconstructArguments& arguments) {
     show_growth(job, *growing);
   }
   std::vector<std::string> made;
-  make_products_of(job, products_of(arguments, job), made);
+  make_products_of(job, products, made);
   const InterruptWatch interrupt;
   const ReconstructResult result = reconstruct(job, progress_line(arguments.common.quiet), interrupt.token());
   warn_of_skipped(result, job.cloud.string());

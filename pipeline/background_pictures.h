@@ -34,6 +34,8 @@ class BackgroundPictures {
   GreyImage light_of(const GreyImage& picture, const std::filesystem::path& file, Channel channel,
                      std::string* doubt = nullptr) const;
 
+  const std::vector<std::filesystem::path>& files() const { return files_; }
+
  private:
   std::shared_ptr<const GreyImage> read(const std::filesystem::path& background, Channel channel,
                                         bool of_8_bits) const;

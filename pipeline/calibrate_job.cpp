@@ -10,6 +10,7 @@
 #include "io/atomic_file.h"
 #include "io/camera_file.h"
 #include "io/images.h"
+#include "io/output_guard.h"
 #include "io/rig_file.h"
 #include "pipeline/calibration_advice.h"
 #include "pipeline/run_record.h"
@@ -88,6 +89,23 @@ void write_results(const CalibrateJob& job, CalibrateResult& result) {
                        "calibration:\n" + indented(dump_yaml(job.calibration)));
 }
 
+void guard(const CalibrateJob& job) {
+  std::vector<fs::path> inputs = files_of(job.session), outputs = job.other_outputs;
+  if (!job.overlay_folder.empty())
+    for (const fs::path& picture : inputs)  // each in the folder of its sensor
+      for (const SessionSensor& sensor : job.session.sensors)
+        outputs.push_back(job.overlay_folder / sensor.name / (picture.stem().string() + ".png"));
+  std::sort(outputs.begin(), outputs.end());  // pictures of one name are drawn one over the other
+  outputs.erase(std::unique(outputs.begin(), outputs.end()), outputs.end());
+  inputs.push_back(job.session_file);
+  if (!job.rig.empty()) outputs.insert(outputs.end(), {job.rig, job.rig.string() + ".run.yaml"});
+  if (!job.camera_folder.empty())
+    for (const SessionSensor& sensor : job.session.sensors)
+      for (const char* end : {".opencv.yaml", ".ros.yaml", ".cameramodel"})
+        outputs.push_back(job.camera_folder / (sensor.name + end));
+  guard_outputs(inputs, outputs);
+}
+
 }  // namespace
 
 CalibrateJob read_calibrate_job(const fs::path& session_file) {
@@ -101,6 +119,7 @@ CalibrateJob read_calibrate_job(const fs::path& session_file) {
 
 CalibrateResult calibrate(const CalibrateJob& job, const ProgressCallback& progress,
                           const std::stop_token& stop) {
+  guard(job);
   const JobThreads threads(job.threads);
   CalibrateResult result;
   result.seen = observe_session(job.session, job.extraction, progress, stop);

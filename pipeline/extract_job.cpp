@@ -9,6 +9,7 @@
 #include "extraction/extract_stripes.h"
 #include "extraction/workspace.h"
 #include "io/atomic_file.h"
+#include "io/output_guard.h"
 #include "io/tables.h"
 #include "pipeline/background_pictures.h"
 
@@ -65,8 +66,14 @@ ExtractResult extract(const ExtractJob& job, const ProgressCallback& progress, c
   const std::size_t total = job.images.size();
   const std::size_t batch = 2 * static_cast<std::size_t>(thread_count(job.threads));  // bounds the memory
   std::unique_ptr<BackgroundPictures> background;
-  if (!job.background.empty())
+  std::vector<std::filesystem::path> inputs(job.images.begin(), job.images.end());
+  if (!job.background.empty()) {
     background = std::make_unique<BackgroundPictures>("", job.background, "--background");
+    inputs.insert(inputs.end(), background->files().begin(), background->files().end());
+  }
+  std::vector<std::filesystem::path> outputs = job.other_outputs;
+  outputs.push_back(job.table);
+  guard_outputs(inputs, outputs);
   AtomicFile file(job.table);
   std::ofstream table(file.temporary(), std::ios::binary);
   table << kStripesHeader;

@@ -31,7 +31,8 @@ struct ExtractJob {
   std::string background;  ///< file or pattern of pictures with the laser off; empty: none
   ExtractionOptions extraction;
   std::filesystem::path table = "stripes.csv";
-  int threads = 0;  ///< 0 = all cores
+  std::vector<std::filesystem::path> other_outputs;  ///< what else is written: must not be an input either
+  int threads = 0;                                   ///< 0 = all cores
   /// Told of each picture (its index in `images`) on the thread that has just looked at it.
   std::function<void(std::size_t index, const SeenImage& seen)> on_image{};
   /// Told of each picture in order, from one thread, when its rows are in the table.

@@ -13,6 +13,7 @@
 #include "core/error.h"
 #include "io/atomic_file.h"
 #include "io/images.h"
+#include "io/output_guard.h"
 #include "io/rig_file.h"
 #include "pipeline/camera_recorders.h"
 #include "pipeline/record_frames.h"
@@ -205,6 +206,20 @@ void close_output(const Run& run, ScanOutput& output, ReconstructResult& result)
   output.forget_journal();
 }
 
+void guard(const Run& run) {
+  const ReconstructJob& job = run.job;
+  std::vector<fs::path> inputs = files_of(job.scan), outputs = job.other_outputs;
+  inputs.push_back(job.scan_file);
+  inputs.push_back(job.rig_file);
+  for (const fs::path& output : {job.cloud, job.profiles}) {
+    if (output.empty()) continue;
+    outputs.push_back(output);
+    outputs.push_back(ResumableFile::partial_of(output));
+  }
+  outputs.push_back(job.cloud.string() + ".run.yaml");
+  guard_outputs(inputs, outputs);
+}
+
 /// With `strict`: what would be left out is an error before anything is done.
 void refuse_vanished_frames(const Run& run) {
   if (!run.job.strict) return;
@@ -395,6 +410,7 @@ ReconstructResult reconstruct(const ReconstructJob& job, const ProgressCallback&
   if (job.follow) return reconstruct_following(job, progress, stop);
   const Run run = open_run(job);
   refuse_vanished_frames(run);
+  guard(run);
   ScanOutput output(output_options(run));
   const std::int64_t points_before = output.tally().counts.points;
   if (job.on_profile && points_before > 0)

@@ -27,11 +27,12 @@ struct ReconstructJob {
   std::filesystem::path scan_file, rig_file;  ///< named in messages and in the run's record
   Scan scan;
   Rig rig;
-  ExtractionOptions extraction;               ///< in effect: the scan's own are merged
-  std::filesystem::path cloud = "cloud.ply";  ///< .ply, .pcd or .xyz
-  std::filesystem::path profiles;             ///< table of the sections (.csv); empty: none
-  std::optional<std::int64_t> first_frame;    ///< nothing: the recording's first
-  std::optional<std::int64_t> end_frame;      ///< the first frame that is not done; nothing: to the end
+  ExtractionOptions extraction;                      ///< in effect: the scan's own are merged
+  std::filesystem::path cloud = "cloud.ply";         ///< .ply, .pcd or .xyz
+  std::filesystem::path profiles;                    ///< table of the sections (.csv); empty: none
+  std::vector<std::filesystem::path> other_outputs;  ///< what else is written: must not be an input either
+  std::optional<std::int64_t> first_frame;           ///< nothing: the recording's first
+  std::optional<std::int64_t> end_frame;  ///< the first frame that is not done; nothing: to the end
   bool strict = false;      ///< a picture that is missing or cannot be read is an Error, not skipped
   bool resume = false;      ///< go on where an earlier run of the same job was ended
   double checkpoint_s = 1;  ///< time between the places where a run can be resumed

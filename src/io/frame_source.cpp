@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "io/atomic_file.h"
 #include "io/choose_channel.h"
 #include "io/frame_numbers.h"
 #include "io/images.h"
@@ -144,6 +145,7 @@ std::unique_ptr<FrameSource> open_frames(const fs::path& base, const std::string
     return std::make_unique<ImageFolder>(pictures_in(base, pattern), channel);
   FileNames files = list_file_names(base, pattern);
   const fs::path first = files.folder / files.names.front();
+  refuse_special_file(first);
   const bool one_file = pattern.find_first_of("*?") == std::string::npos;
   if (one_file && is_tiff_name(first)) {
     if (auto pages = open_tiff_pages(first, channel)) return pages;

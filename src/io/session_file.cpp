@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "io/backgrounds_field.h"
+#include "io/output_guard.h"
 #include "io/session_target.h"
 
 namespace lightstripe {
@@ -98,6 +99,7 @@ void check_heights(const SensorFields& fields, const std::string& key, const Che
 SessionSensor checked_sensor(const SensorFields& fields, const std::string& key, const Checker& check) {
   SessionSensor sensor;
   sensor.name = check.text(fields.name, key + "name");
+  check_sensor_name(sensor.name, check.file + ": " + key + "name");
   check.require(sensor.name != "rig" && sensor.name != "tool", key + "name",
                 "is a reserved name (poses may be `of: rig` or `of: tool`)", "choose another name");
   sensor.laser_planes = fields.laser_planes.value_or(1);
