@@ -4,26 +4,27 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <numeric>
 
 #include "core/error.h"
 #include "core/random.h"
 #include "core/robust.h"
 #include "measure/artefact_fit.h"
+#include "measure/artefact_search.h"
 
 namespace lightstripe {
 namespace {
 
 using Eigen::Vector3d;
 
-constexpr std::size_t kSearchPoints = 3000;  // looked at by the search
-constexpr int kTrials = 1500;
 constexpr int kMinPoints = 30, kMinGroups = 4;
 constexpr double kTrim_sigmas = 4;
-constexpr double kFirstTolerance = 0.05, kSizeTolerance = 0.2, kHeightTolerance = 0.33;
+constexpr double kSizeTolerance = 0.2;
 
 /// The points that a shape explains, with the group of each.
 struct Used {
@@ -35,109 +36,6 @@ struct Used {
     points.push_back(p), groups.push_back(group), faces.push_back(face);
   }
 };
-
-Points3 thinned(const Points3& points) {
-  Points3 out;
-  const std::size_t step = std::max<std::size_t>(1, points.size() / kSearchPoints);
-  for (std::size_t i = 0; i < points.size(); i += step) out.push_back(points[i]);
-  return out;
-}
-
-std::size_t any_index(Random& random, std::size_t size) {
-  return std::min(size - 1, static_cast<std::size_t>(random.uniform() * static_cast<double>(size)));
-}
-
-/// Points about one of them, no farther than the body is large: the rest of the scene does not dilute them.
-template <std::size_t kCount>
-std::optional<std::array<Vector3d, kCount>> points_nearby(const Points3& points, double reach,
-                                                          Random& random) {
-  constexpr int kTries = 60;
-  std::array<Vector3d, kCount> out;
-  out[0] = points[any_index(random, points.size())];
-  std::size_t found = 1;
-  for (int i = 0; i < kTries && found < kCount; ++i) {
-    const Vector3d& p = points[any_index(random, points.size())];
-    if ((p - out[0]).norm() < reach) out[found++] = p;
-  }
-  return found == kCount ? std::optional(out) : std::nullopt;
-}
-
-// ---- round bodies
-
-/// Circle through three points seen along the axis, as a cylinder; the ball through four. Radius 0: none.
-RoundBody circle_through(const std::array<Vector3d, 4>& p, const Vector3d& axis) {
-  const Vector3d e1 = axis.unitOrthogonal(), e2 = axis.cross(e1);
-  Eigen::Matrix2d a;
-  Eigen::Vector2d b;
-  const auto flat = [&](const Vector3d& q) { return Eigen::Vector2d(e1.dot(q), e2.dot(q)); };
-  for (int i = 0; i < 2; ++i) {
-    const Eigen::Vector2d d = flat(p[static_cast<std::size_t>(i) + 1]) - flat(p[0]);
-    a.row(i) = 2 * d.transpose();
-    b(i) = d.squaredNorm();
-  }
-  const Eigen::Vector2d c = a.inverse() * b;
-  if (!c.allFinite()) return {};
-  return {p[0] - axis * axis.dot(p[0]) + c.x() * e1 + c.y() * e2, axis, c.norm()};
-}
-
-RoundBody ball_through(const std::array<Vector3d, 4>& p) {
-  Eigen::Matrix3d a;
-  Vector3d b;
-  for (int i = 0; i < 3; ++i) {
-    const Vector3d d = p[static_cast<std::size_t>(i) + 1] - p[0];
-    a.row(i) = 2 * d.transpose();
-    b(i) = d.squaredNorm();
-  }
-  const Vector3d c = a.inverse() * b;
-  if (!c.allFinite()) return {};
-  return {p[0] + c, Vector3d::Zero(), c.norm()};
-}
-
-/// Directions about one of the rig's axes, 6 degrees apart; of a ball none, of a section the travel.
-std::vector<std::vector<Vector3d>> axes_to_try(const ArtefactSpec& spec) {
-  if (spec.kind == Artefact::kSphere) return {{Vector3d::Zero()}};
-  if (spec.section) return {{Vector3d::UnitX()}};
-  constexpr int kTilts = 3;
-  constexpr double kTilt = 0.1;  // rad
-  std::vector<std::vector<Vector3d>> all(3);
-  for (int base = 0; base < 3; ++base)
-    for (int i = -kTilts; i <= kTilts; ++i)
-      for (int j = -kTilts; j <= kTilts; ++j) {
-        Vector3d axis;
-        axis(base) = 1, axis((base + 1) % 3) = kTilt * i, axis((base + 2) % 3) = kTilt * j;
-        all[static_cast<std::size_t>(base)].push_back(axis.normalized());
-      }
-  return all;
-}
-
-/// How well the body explains the points: 1 for each on its surface, 0 from `width` on (MSAC: Torr and
-/// Zisserman 2000).
-double support_of(const Points3& points, const RoundBody& body, double width) {
-  double sum = 0;
-  for (const Vector3d& q : points) sum += std::max(0.0, 1 - std::pow(body.distance(q) / width, 2));
-  return sum;
-}
-
-/// The body near the known size that explains most points. A cylinder at a slant to the axis is seen as an
-/// ellipse first: hence the width of what counts.
-RoundBody find_round_body(const Points3& points, const ArtefactSpec& spec,
-                          const std::vector<Vector3d>& axes) {
-  const double radius = spec.size_mm / 2;
-  const int trials = kTrials / std::min(10, static_cast<int>(axes.size()));
-  RoundBody best;
-  double most = 0;
-  Random random(1);
-  for (const Vector3d& axis : axes)
-    for (int trial = 0; trial < trials; ++trial) {
-      const auto p = points_nearby<4>(points, spec.size_mm, random);
-      if (!p) continue;
-      const RoundBody body = axis.isZero() ? ball_through(*p) : circle_through(*p, axis);
-      if (std::abs(body.radius - radius) > kFirstTolerance * radius) continue;
-      const double support = support_of(points, body, 0.04 * radius);
-      if (support > most) most = support, best = body;
-    }
-  return best;
-}
 
 double sigma_of(std::vector<double> distances) {
   for (double& d : distances) d = std::abs(d);
@@ -186,53 +84,22 @@ double round_size(const Used& used, const ArtefactSpec& spec, const RoundBody& s
 
 // ---- steps
 
-/// Normal of a face through three points (of a section: two and the travel).
-Vector3d face_normal(const std::array<Vector3d, 3>& p, bool section) {
-  const Vector3d along = section ? Vector3d::UnitX() : Vector3d(p[2] - p[0]);
-  return (p[1] - p[0]).cross(along).normalized();
-}
-
-/// The second face's offset: the window as wide as `width` about it that holds most points, at about the
-/// known height on either side.
-std::array<double, 2> best_partner(const std::vector<double>& distances, double height, double width) {
-  std::vector<double> candidates;
-  for (const double d : distances)
-    if (std::abs(std::abs(d) - height) < kHeightTolerance * height) candidates.push_back(d);
-  std::sort(candidates.begin(), candidates.end());
-  std::array<double, 2> best{0, 0};  // offset, points
-  std::size_t last = 0;
-  for (std::size_t first = 0; first < candidates.size(); ++first) {
-    while (last < candidates.size() && candidates[last] < candidates[first] + 2 * width) ++last;
-    const auto count = static_cast<double>(last - first);
-    if (count > best[1]) best = {candidates[(first + last - 1) / 2], count};
+/// The middle of each face in each group: what lies next to an edge is rounded by lens and light. (ISO 5436-1
+/// takes the middle third of a groove for the same reason.)
+Used middles_of(const Used& used) {
+  constexpr double kLeftOut = 1.0 / 6;  // at either end
+  Used out;
+  for (std::size_t first = 0, last; first < used.points.size(); first = last) {
+    std::array<std::vector<std::size_t>, 2> face;
+    for (last = first; last < used.points.size() && used.groups[last] == used.groups[first]; ++last)
+      face[static_cast<std::size_t>(used.faces[last])].push_back(last);
+    for (const auto& indices : face) {
+      const auto ends = static_cast<std::size_t>(kLeftOut * static_cast<double>(indices.size()));
+      for (std::size_t i = ends; i + ends < indices.size(); ++i)
+        out.add(used.points[indices[i]], used.groups[indices[i]], used.faces[indices[i]]);
+    }
   }
-  return best;
-}
-
-std::optional<ParallelFaces> find_step(const Points3& points, const ArtefactSpec& spec) {
-  const double width = 0.05 * spec.size_mm;
-  std::optional<ParallelFaces> best;
-  double most = 0;
-  Random random(2);
-  for (int trial = 0; trial < kTrials; ++trial) {
-    const auto p = points_nearby<3>(points, 10 * spec.size_mm, random);
-    if (!p) continue;
-    ParallelFaces faces;
-    faces.normal = face_normal(*p, spec.section);
-    if (!faces.normal.allFinite()) continue;
-    faces.offset[0] = faces.normal.dot((*p)[0]);
-    std::vector<double> distances;
-    for (const Vector3d& q : points) distances.push_back(faces.distance(q, 0));
-    const auto near = [&](double d) { return std::abs(d) < width; };
-    const auto on_first = static_cast<double>(std::count_if(distances.begin(), distances.end(), near));
-    const auto [offset, on_second] = best_partner(distances, spec.size_mm, width);
-    const double support = std::min(on_first, on_second) + 0.1 * (on_first + on_second);
-    if (on_second < 1 || support <= most) continue;
-    most = support;
-    faces.offset[1] = faces.offset[0] + offset;
-    best = faces;
-  }
-  return best;
+  return out;
 }
 
 ParallelFaces fit_step(const Used& used, bool whole) {
@@ -258,6 +125,7 @@ ParallelFaces refine_step(const Points3& points, const std::vector<int>& groups,
     for (std::size_t i = 0; i < points.size(); ++i)
       for (int face = 0; face < 2; ++face)
         if (std::abs(faces.distance(points[i], face)) < width) used.add(points[i], groups[i], face);
+    if (!spec.section) used = middles_of(used);
     if (!has_both_faces(used)) return faces;
     faces = fit_step(used, !spec.section);
     for (std::size_t i = 0; i < used.points.size(); ++i)
@@ -302,43 +170,66 @@ std::optional<double> jackknife_sigma(Used used, const SizeOf& size_of) {
   return std::sqrt(sum * (parts - 1) / parts);
 }
 
+/// The same points in eight groups by their place along where they reach farthest: an error that changes
+/// along the body is no scatter from frame to frame, but shows when a part of the body is left out.
+Used grouped_by_place(Used used, Points3 places) {
+  constexpr std::size_t kParts = 8;
+  Vector3d mean = Vector3d::Zero();
+  for (const Vector3d& p : places) mean += p / static_cast<double>(places.size());
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+  for (Vector3d& p : places) p -= mean, spread += p * p.transpose();
+  const Vector3d along = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvectors().col(2);
+  std::vector<std::size_t> order(places.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t i, std::size_t j) { return along.dot(places[i]) < along.dot(places[j]); });
+  Used out;
+  for (std::size_t rank = 0; rank < order.size(); ++rank)
+    out.add(used.points[order[rank]], static_cast<int>(rank * kParts / order.size()),
+            used.faces[order[rank]]);
+  return out;
+}
+
+/// `places`: where on the body each used point lies.
 template <class SizeOf, class DistanceOf>
-std::optional<ArtefactMeasurement> measured(const Used& used, const SizeOf& size_of,
+std::optional<ArtefactMeasurement> measured(const Used& used, const Points3& places, const SizeOf& size_of,
                                             const DistanceOf& distance_of, std::string& why_not) {
-  const auto sigma = jackknife_sigma(used, size_of);
-  if (!sigma) {
+  const auto by_group = jackknife_sigma(used, size_of),
+             by_place = jackknife_sigma(grouped_by_place(used, places), size_of);
+  if (!by_group || !by_place) {
     why_not = "too little of the body is seen to tell its size";
     return std::nullopt;
   }
   double sum = 0;
   for (std::size_t i = 0; i < used.points.size(); ++i) sum += std::pow(distance_of(i), 2);
-  return ArtefactMeasurement{size_of(used), *sigma, std::sqrt(sum / static_cast<double>(used.points.size())),
+  return ArtefactMeasurement{size_of(used), std::max(*by_group, *by_place),
+                             std::sqrt(sum / static_cast<double>(used.points.size())),
                              static_cast<int>(used.points.size())};
 }
 
 std::optional<ArtefactMeasurement> measure_step(const Points3& points, const std::vector<int>& groups,
                                                 const ArtefactSpec& spec, std::string& why_not) {
-  const auto found = find_step(thinned(points), spec);
+  const auto found = find_step(points, spec);
   Used used;
   const auto faces = found ? refine_step(points, groups, spec, *found, used) : ParallelFaces{};
   const double height = std::abs(faces.offset[1] - faces.offset[0]);
-  if (!found || !has_both_faces(used) || std::abs(height - spec.size_mm) > kHeightTolerance * spec.size_mm) {
+  if (!found || !has_both_faces(used) || std::abs(height - spec.size_mm) > kStepTolerance * spec.size_mm) {
     why_not = fmt::format("no two parallel faces about {:g} mm apart are in the points", spec.size_mm);
     return std::nullopt;
   }
   return measured(
-      used,
+      used, used.points,
       [&](const Used& some) { return has_both_faces(some) ? step_size(some, spec) : step_size(used, spec); },
       [&](std::size_t i) { return faces.distance(used.points[i], used.faces[i]); }, why_not);
 }
 
 std::optional<ArtefactMeasurement> measure_round(const Points3& points, const std::vector<int>& groups,
                                                  const ArtefactSpec& spec, std::string& why_not) {
-  const Points3 few = thinned(points);
+  const Points3 few = points_to_search(points, spec);
   Used used;
   RoundBody body;
   double most = 0;
-  for (const auto& axes : axes_to_try(spec)) {
+  for (const auto& axes : axes_of_round_body(spec)) {
     const RoundBody found = find_round_body(few, spec, axes);
     if (found.radius <= 0) continue;
     Used with;
@@ -354,8 +245,13 @@ std::optional<ArtefactMeasurement> measure_round(const Points3& points, const st
                           spec.kind == Artefact::kSphere ? "sphere" : "cylinder", spec.size_mm);
     return std::nullopt;
   }
+  Points3 normals;
+  for (const Vector3d& p : used.points) {
+    const Vector3d from = p - body.center;
+    normals.push_back((from - body.axis * body.axis.dot(from)).normalized());
+  }
   return measured(
-      used, [&](const Used& some) { return round_size(some, spec, body); },
+      used, normals, [&](const Used& some) { return round_size(some, spec, body); },
       [&](std::size_t i) { return body.distance(used.points[i]); }, why_not);
 }
 

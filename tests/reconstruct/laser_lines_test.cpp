@@ -166,10 +166,10 @@ TEST(AssignLaserPlanesByReach, OneLineTooManyLeavesThoseItTouchesOpen) {
 // ---- beyond the measuring range ----
 
 TEST(AssignLaserPlanesByReach, ALineThatMayLieNearTheRangeIsDroppedUnderThatName) {
-  // Sheet 1 at 495 is where sheet 2 would be at 521, a fifth of the range beyond it; sheet 0 would be within.
+  // Sheet 1 at 470 is where sheet 2 would be at 525, a quarter of the range beyond it.
   auto sensor = ranged_sensor();
   sensor.laser_planes.erase(sensor.laser_planes.begin());  // sheets 1 and 2
-  const auto decisions = decide_laser_planes({upright(column(1, 495))}, sensor);
+  const auto decisions = decide_laser_planes({upright(column(1, 470))}, sensor);
   EXPECT_EQ(decisions[0].plane, std::nullopt);
   EXPECT_TRUE(decisions[0].may_lie_outside);
   EXPECT_EQ(decisions[0].outside_mm, std::nullopt);
