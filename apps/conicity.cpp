@@ -21,9 +21,7 @@ struct ConicityArguments {
 };
 
 void summarise(const ConicityArguments& arguments, const Conicity& conicity) {
-  if (conicity.at_3_mm)
-    say(arguments.common, fmt::format("tan gamma_e at 3 mm: {:.4f}, sigma {:.4f}", *conicity.at_3_mm,
-                                      conicity.at_3_mm_sigma.value_or(0)));
+  if (conicity.at_3_mm) say(arguments.common, "tan gamma_e at 3 mm: " + conicity_at_3_mm_text(conicity));
   if (conicity.nonlinearity_per_mm)
     say(arguments.common,
         fmt::format("nonlinearity (tan gamma_e at 4 mm less that at 2 mm, over 2 mm; our own "

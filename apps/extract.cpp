@@ -53,9 +53,9 @@ int run_extract(const ExtractArguments& arguments) {
   say(arguments.common, fmt::format("{} images, {} lines, {} points -> {}", result.images, result.lines,
                                     result.points, job.table.string()));
   if (!result.usable())
-    return not_usable(
-        "no stripe was found in any image; look at exposure and --channel, or give --stripe-width and "
-        "--thresholds");
+    return not_usable(fmt::format("no stripe was found in any image: {}; {}",
+                                  what_it_looks_like(result.impression),
+                                  what_to_do_about(result.impression)));
   return kExitDone;
 }
 

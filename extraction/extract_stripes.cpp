@@ -3,7 +3,10 @@
 #include "extraction/extract_stripes.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 
 #include "extraction/compare/grey_value_lines.h"
 #include "extraction/compare/hu_recursive.h"
@@ -77,6 +80,7 @@ void filter_groups(const Run<T>& run, double width_slack) {
   w.facts.resize(std::max(w.facts.size(), w.groups.count));
   w.filtered.clear();
   w.tests.edges = {};
+  w.tests.tried = 0;
   for (std::size_t g = 0; g < w.groups.count; ++g) {
     ScaleGroup& group = w.groups.all[g];
     filter_lines(run.image, *group.kernels, run.facts.noise.seen, run.options.lines, width_slack, w.tests,
@@ -85,7 +89,7 @@ void filter_groups(const Run<T>& run, double width_slack) {
   }
   // Gleams with the laser off; a faint line has to be long. The range of 16-bit pixels is not known.
   const double least_height = width_slack > 1 && sizeof(T) == 1 ? 20.0 : 0.0;
-  drop_faint_lines(w.filtered, run.facts.noise.seen, run.options.lines, width_slack, least_height,
+  drop_faint_lines(w.filtered, run.options.lines, {run.facts.noise.seen, width_slack, least_height},
                    w.tests.edges);
 }
 
@@ -276,12 +280,46 @@ bool scales_are_free(const ExtractionOptions& options, const ParsedOptions& pars
          options.method == ExtractionMethod::kDirectionGuided;
 }
 
+/// The image in which dark lines are bright: each grey value taken from the largest that its kind of pixel
+/// has, or, of 16-bit pixels, from the largest of as many bits as the image uses. Colour tells nothing of
+/// them.
+template <class T>
+ImageView<T> inverted(ImageView<T> image, Image<T>& negative) {
+  T largest = std::numeric_limits<T>::max();
+  if constexpr (sizeof(T) > 1) {
+    T brightest = 0;
+    for (int y = 0; y < image.height; ++y)
+      brightest = std::max(brightest, *std::max_element(image.row(y), image.row(y) + image.width));
+    largest = static_cast<T>(std::bit_ceil(std::uint32_t{brightest} + 1) - 1);
+  }
+  negative.width = image.width;
+  negative.height = image.height;
+  negative.pixels.resize(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
+  for (int y = 0; y < image.height; ++y)
+    std::transform(image.row(y), image.row(y) + image.width, negative.row(y),
+                   [largest](T grey) { return static_cast<T>(largest - grey); });
+  return negative.view();
+}
+
+/// The grey level at which pixels are clipped: of 16-bit pixels nobody knows it, but the brightest one fills
+/// at least half of the range.
+template <class T>
+double full_scale_of(ImageView<T>, double brightest) {
+  if constexpr (sizeof(T) == 1) return std::numeric_limits<T>::max();
+  return std::max(1023.0, std::exp2(std::ceil(std::log2(brightest + 1))) - 1);
+}
+
 template <class T>
 void extract(ImageView<T> whole, const ExtractionOptions& options, ExtractionWorkspace& w,
              ExtractionResult& result) {
   const ParsedOptions parsed = parse_options(options);
+  if (options.polarity == Polarity::kDark && !whole.empty())
+    whole = inverted(whole, w.template negative<T>());
   result.sigma = result.threshold_low = result.threshold_high = result.noise = 0;
   result.levels = {};
+  result.impression = Impression::kNone;
+  w.tests.edges = {};
+  w.tests.tried = 0;
   w.groups.count = 0;
   const ImageView<T> image = region_of(whole, parsed);
   const PixelPlace origin{parsed.roi ? 1.0 * parsed.roi->x : 0.0, parsed.roi ? 1.0 * parsed.roi->y : 0.0};
@@ -297,6 +335,12 @@ void extract(ImageView<T> whole, const ExtractionOptions& options, ExtractionWor
       if (!options.sigma && !options.stripe_width) refine_sigma(run);
     }
     for (ScaleGroup& group : w.groups.used()) finish_lines(run, group);
+    hand_over(w, options.max_lines, origin, result);
+    if (result.stripes.empty())
+      result.impression = impression_of(
+          run.facts.histogram, {run.facts.noise.seen, full_scale_of(image, run.facts.histogram.largest),
+                                w.tests.tried, w.tests.edges.length});
+    return;
   }
   hand_over(w, options.max_lines, origin, result);
 }

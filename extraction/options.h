@@ -24,8 +24,16 @@ constexpr std::array<EnumName<ExtractionMethod>, 6> enum_names(ExtractionMethod)
            {ExtractionMethod::kExtremum, "extremum"}}};
 }
 
+/// Whether the lines are brighter or darker than their surroundings.
+enum class Polarity { kBright, kDark };
+
+constexpr std::array<EnumName<Polarity>, 2> enum_names(Polarity) {
+  return {{{Polarity::kBright, "bright"}, {Polarity::kDark, "dark"}}};
+}
+
 struct ExtractionOptions {
   ExtractionMethod method = ExtractionMethod::kDirectionGuided;
+  Polarity polarity = Polarity::kBright;
   std::optional<double> stripe_width;  ///< px, full width 2w of the bright bar; sigma = w / sqrt(3)
   std::optional<double> sigma;         ///< px; neither given: the width is estimated from the image
   std::string thresholds = "auto";     ///< auto = bilevel, otsu, rosin, or "LOW,HIGH" in grey levels
@@ -43,6 +51,8 @@ struct ExtractionOptions {
 template <class V>
 void visit_fields(V&& v, ExtractionOptions& o) {
   v("method", o.method, "direction-guided | steger | zhou-roi | hu-recursive | centroid | extremum");
+  v("polarity", o.polarity,
+    "bright | dark: whether the lines are brighter or darker than what is beside them");
   v("stripe_width", o.stripe_width, "full width of the bright bar, px; default: estimated from the image");
   v("sigma", o.sigma, "scale of the Gaussian kernels, px; default: stripe_width / (2 sqrt 3)");
   v("thresholds", o.thresholds, "auto (bilevel), otsu, rosin, or LOW,HIGH in grey levels");

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/stripe.h"
+#include "extraction/image/impression.h"
 #include "extraction/image/thresholds.h"
 
 namespace lightstripe {
@@ -16,8 +17,9 @@ struct ExtractionResult {
   double sigma = 0;          ///< the scale used, px
   double threshold_low = 0;  ///< grey levels
   double threshold_high = 0;
-  double noise = 0;          ///< standard deviation of the image noise, grey levels, measured in the image
-  BilevelThresholds levels;  ///< how automatic thresholds come about in this image
+  double noise = 0;  ///< standard deviation of the image noise, grey levels, measured in the image
+  Impression impression = Impression::kNone;  ///< of a picture without stripes
+  BilevelThresholds levels;                   ///< how automatic thresholds come about in this image
 };
 
 }  // namespace lightstripe

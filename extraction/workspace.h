@@ -13,6 +13,7 @@
 #include "extraction/follow/own_scale.h"
 #include "extraction/kernels/kernels.h"
 #include "extraction/lines/curvature_bias.h"
+#include "extraction/lines/faint_lines.h"
 #include "extraction/lines/line_asymmetry.h"
 #include "extraction/lines/line_filter.h"
 #include "extraction/lines/line_noise.h"
@@ -44,6 +45,8 @@ struct ExtractionWorkspace {
   BendWorkspace bends;
   OwnScaleWorkspace<std::uint8_t> own_scale8;
   OwnScaleWorkspace<std::uint16_t> own_scale16;
+  Image8 negative8;  ///< the image with dark lines made bright
+  Image16 negative16;
   std::vector<PlacedLine> order;
   std::vector<float> values;
   std::vector<Stripe> spare;  ///< memory of stripes that the last results did not need
@@ -54,6 +57,13 @@ struct ExtractionWorkspace {
       return direction_guided8;
     else
       return direction_guided16;
+  }
+  template <class T>
+  Image<T>& negative() {
+    if constexpr (std::is_same_v<T, std::uint8_t>)
+      return negative8;
+    else
+      return negative16;
   }
   template <class T>
   OwnScaleWorkspace<T>& own_scale() {

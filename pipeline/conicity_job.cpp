@@ -234,6 +234,13 @@ Conicity run_conicity(const ConicityJob& job) {
   return conicity;
 }
 
+std::string conicity_at_3_mm_text(const Conicity& conicity) {
+  if (!conicity.at_3_mm) return "not known";
+  const double sigma = conicity.at_3_mm_sigma.value_or(0);
+  const std::string value = fmt::format("{:.4f}", *conicity.at_3_mm);
+  return sigma > 0 ? value + fmt::format(", sigma {:.4f}", std::max(sigma, 1e-4)) : value;
+}
+
 std::string conicity_table(const Conicity& conicity) {
   std::string out = "y_mm,delta_r_mm,tan_gamma_e,tan_gamma_e_sigma\n";
   for (const ConicityRow& row : conicity.rows) {

@@ -33,6 +33,10 @@ RollingProfile read_rolling_rail(const std::string& source, const ConicityJob& j
 /// Reads, computes and writes the tables (none where the result is not usable).
 Conicity run_conicity(const ConicityJob& job);
 
+/// "0.1746, sigma 0.0021"; "not known"; without a sigma where both outlines are nominal and the gauge is
+/// exact.
+std::string conicity_at_3_mm_text(const Conicity& conicity);
+
 /// y_mm,delta_r_mm,tan_gamma_e,tan_gamma_e_sigma
 std::string conicity_table(const Conicity& conicity);
 /// shift_mm,roll_mrad,delta_r_mm and of each side wheel_y_mm,rail_y_mm,angle_deg,radius_mm, jump (1: the

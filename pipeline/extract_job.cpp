@@ -17,6 +17,7 @@ namespace {
 struct ExtractedImage {
   std::string rows;
   std::size_t lines = 0, points = 0;
+  Impression impression = Impression::kNone;
 };
 
 /// What is kept from image to image.
@@ -37,6 +38,7 @@ ExtractedImage extract_one(const ExtractJob& job, std::size_t index, ExtractMemo
   append_stripes(out.rows, job.images[index], memory.result.stripes);
   out.lines = memory.result.stripes.size();
   for (const auto& stripe : memory.result.stripes) out.points += stripe.points.size();
+  out.impression = memory.result.impression;
   if (job.on_image) job.on_image(index, {image, channel, memory.result});
   return out;
 }
@@ -67,6 +69,7 @@ ExtractResult extract(const ExtractJob& job, const ProgressCallback& progress, c
       ++out.images;
       out.lines += result.lines;
       out.points += result.points;
+      if (out.impression == Impression::kNone) out.impression = result.impression;
     }
   }
   table.close();

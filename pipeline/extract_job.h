@@ -39,6 +39,7 @@ struct ExtractJob {
 
 struct ExtractResult {
   std::size_t images = 0, lines = 0, points = 0;
+  Impression impression = Impression::kNone;  ///< of the first picture without a line
   bool usable() const { return points > 0; }
 };
 

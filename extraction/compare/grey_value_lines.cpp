@@ -68,22 +68,6 @@ void bright_runs(const PixelLine<T>& line, const RunRule& rule, const Derivative
   }
 }
 
-/// Mean length of the runs above `level`, px: short where stripes cross the columns (rows) steeply.
-template <class T>
-double mean_run(ImageView<T> image, bool columns, double level) {
-  double runs = 0, pixels = 0;
-  const int count = columns ? image.width : image.height;
-  for (int k = 0; k < count; k += 4) {
-    const PixelLine<T> line = columns ? column_line(image, k) : row_line(image, k);
-    for (int i = 0; i < line.count; ++i) {
-      if (line[i] <= level) continue;
-      pixels += 1;
-      if (i == 0 || line[i - 1] <= level) runs += 1;
-    }
-  }
-  return runs == 0 ? 0 : pixels / runs;
-}
-
 /// Gives each run to the open line that it touches, or opens a new one; returns how many lines there are.
 int join_runs(int position, bool columns, int count, GreyValueWorkspace& w) {
   for (auto& line : w.open) line.extended = false;
@@ -133,6 +117,48 @@ void hand_over(int count, const DerivativeKernels& kernels, GreyValueWorkspace& 
     }
 }
 
+/// Whether the line, seen over a few points to both sides of `i`, runs along the rows (so that its columns
+/// cross it) rather than along the columns.
+bool runs_along_rows(const LineSet& lines, const LineRange& r, std::size_t i, std::size_t reach) {
+  const StripePoint &a = lines.points[std::max(r.begin + reach, i) - reach],
+                    &b = lines.points[std::min(r.end - 1, i + reach)];
+  // At 45 degrees the columns have it, by more than noise turns the line.
+  constexpr double kInFavour = 1.05;
+  return kInFavour * std::abs(b.x - a.x) >= std::abs(b.y - a.y);
+}
+
+/// Appends the parts of `found` that the axis it was found along crosses at less than 45 degrees; a line that
+/// is nearly all of that kind stays whole.
+void keep_well_crossed(const LineSet& found, bool columns, std::size_t reach, std::vector<char>& well,
+                       LineSet& lines) {
+  constexpr double kNearlyAll = 0.95;
+  constexpr std::size_t kLeastPoints = 5;
+  for (const LineRange& r : found.lines) {
+    well.clear();
+    std::size_t count = 0;
+    for (std::size_t i = r.begin; i < r.end; ++i) {
+      well.push_back(runs_along_rows(found, r, i, reach) == columns ? 1 : 0);
+      count += well.back() != 0 ? 1U : 0U;
+    }
+    const double share = static_cast<double>(count) / static_cast<double>(r.size());
+    if (share > kNearlyAll || share < 1 - kNearlyAll)
+      std::fill(well.begin(), well.end(), share > 0.5 ? 1 : 0);
+    for (std::size_t begin = 0; begin < well.size(); ++begin) {
+      if (well[begin] == 0) continue;
+      std::size_t end = begin;
+      while (end < well.size() && well[end] != 0) ++end;
+      if (end - begin >= kLeastPoints) {
+        const auto first = found.points.begin() + static_cast<std::ptrdiff_t>(r.begin);
+        const std::size_t at = lines.points.size();
+        lines.points.insert(lines.points.end(), first + static_cast<std::ptrdiff_t>(begin),
+                            first + static_cast<std::ptrdiff_t>(end));
+        lines.lines.push_back({at, lines.points.size()});
+      }
+      begin = end;
+    }
+  }
+}
+
 }  // namespace
 
 template <class T>
@@ -142,16 +168,21 @@ void find_lines_by_grey_value(ImageView<T> image, const DerivativeKernels& kerne
   rule.level = std::max(limits.level_low, 1.0);
   rule.start = limits.hard_levels ? limits.level_high : rule.level + limits.start_contrast;
   rule.longest = 2 + static_cast<int>(8 * kernels.sigma);
-  const bool columns = mean_run(image, true, rule.level) <= mean_run(image, false, rule.level);
-  w.open.clear();
-  w.points.clear();
-  w.numbers.clear();
-  int count = 0;
-  for (int k = 0; k < (columns ? image.width : image.height); ++k) {
-    bright_runs(columns ? column_line(image, k) : row_line(image, k), rule, kernels, centre, w.runs);
-    count = join_runs(k, columns, count, w);
+  // A line at 45 degrees is cut to pieces unless its direction is seen over more than its noise.
+  const auto reach = static_cast<std::size_t>(8 + 4 * kernels.sigma);
+  for (const bool columns : {true, false}) {
+    w.open.clear();
+    w.points.clear();
+    w.numbers.clear();
+    w.found.clear();
+    int count = 0;
+    for (int k = 0; k < (columns ? image.width : image.height); ++k) {
+      bright_runs(columns ? column_line(image, k) : row_line(image, k), rule, kernels, centre, w.runs);
+      count = join_runs(k, columns, count, w);
+    }
+    hand_over(count, kernels, w, w.found);
+    keep_well_crossed(w.found, columns, reach, w.well_crossed, lines);
   }
-  hand_over(count, kernels, w, lines);
 }
 
 template void find_lines_by_grey_value<std::uint8_t>(ImageView8, const DerivativeKernels&, const RidgeLimits&,

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The lightstripe authors
 // SPDX-License-Identifier: Apache-2.0
-// The grey-value methods: in every column (row) one centre of each bright run. Fast and simple, for stripes
-// that cross the columns (rows) steeply on a dark background.
+// The grey-value methods: in every column or row one centre of each bright run. Fast and simple, for stripes
+// on a dark background.
 #pragma once
 
 #include <vector>
@@ -37,10 +37,12 @@ struct GreyValueWorkspace {
   std::vector<StripePoint> points;
   std::vector<int> numbers;          ///< the line of each point
   std::vector<std::size_t> offsets;  ///< where each line's points begin
+  LineSet found;                     ///< along one axis
+  std::vector<char> well_crossed;    ///< of the points of one line
 };
 
-/// Columns are taken where the bright pixels' runs are shorter down the columns than along the rows, else
-/// rows. Runs of neighbouring columns that touch make one line.
+/// Runs of neighbouring columns that touch make one line, and so do runs of neighbouring rows. Each line is
+/// taken from the axis that crosses it at less than 45 degrees; a line that bends further is taken in parts.
 template <class T>
 void find_lines_by_grey_value(ImageView<T> image, const DerivativeKernels& kernels, const RidgeLimits& limits,
                               GreyValueCentre centre, GreyValueWorkspace& workspace, LineSet& lines);

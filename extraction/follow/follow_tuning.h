@@ -19,10 +19,13 @@ struct FollowTuning {
   double first_scale = 0.07;
   /// Octaves: no line is followed again farther off than this from the scale of
   /// its seed.
-  double farthest_scale = 0.75;
+  double farthest_scale = 2.0;
   /// Of the length before: a line followed again must keep so much, else the
   /// first try stands.
   double kept_length = 0.8;
+  /// Octaves, and the same for a line whose own scale is finer by more than that: a kernel so broad joins
+  /// pieces which lie beside each other, and each of them is met again by a seed of its own.
+  double much_finer_scale = 0.5, kept_length_of_finer = 0.3;
   /// Of the least length: what is shorter is no line at this scale, and leaves
   /// its place to other scales. The exact length is judged later on the
   /// measured line.

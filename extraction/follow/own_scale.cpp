@@ -78,7 +78,7 @@ class LineFinder {
   std::optional<Followed> follow(std::size_t group, int x, int y);
   void to_full_image(ScaleGroup& group);
   void take_back(const Followed& line);
-  void block(const Followed& line, double sigmas);
+  void block(const Followed& line, double sigmas, int finest_level);
   std::uint8_t& blocked(int x, int y) {
     const auto columns = static_cast<std::size_t>(search_.image.width / 4 + 1);
     return w_.blocked[static_cast<std::size_t>(y / 4) * columns + static_cast<std::size_t>(x / 4)];
@@ -88,7 +88,7 @@ class LineFinder {
   double height(const Followed& line) const;
   bool runs_beside_another(const Followed& line) const;
   bool is_edge(const Followed& line) const;
-  void keep_or_reject(const Followed& line);
+  void keep_or_reject(const Followed& line, int seed_level);
   void try_seed(const ScaleSeed& seed);
 
   const OwnScaleSearch<T>& search_;
@@ -199,7 +199,9 @@ std::optional<typename LineFinder<T>::Followed> LineFinder<T>::at_own_scale(cons
   const double tolerance = first_of_its_scale ? search_.tuning.first_scale : search_.tuning.refollow_scale;
   if (std::abs(std::log2(own / used)) <= tolerance) return line;
   const StripePoint middle = points[points.size() / 2];
-  const double least = search_.tuning.kept_length * length(line);
+  const bool much_finer = std::log2(used / own) > search_.tuning.much_finer_scale;
+  const double least =
+      (much_finer ? search_.tuning.kept_length_of_finer : search_.tuning.kept_length) * length(line);
   take_back(line);
   const std::size_t group = group_for(own, 0.5 * tolerance);
   auto again =
@@ -268,25 +270,26 @@ bool LineFinder<T>::runs_beside_another(const Followed& line) const {
 }
 
 template <class T>
-void LineFinder<T>::keep_or_reject(const Followed& line) {
+void LineFinder<T>::keep_or_reject(const Followed& line, int seed_level) {
   const double least = search_.least_widths * full_width_of(groups_.all[line.group].kernels->sigma);
   if (length(line) >= search_.tuning.least_length * least && !runs_beside_another(line)) {
     ++lines_;
     if (is_edge(line))
       futile_ += search_.tuning.futile_line + length(line) / groups_.all[line.group].kernels->sigma;
-    block(line, search_.tuning.blocked_by_line);
+    block(line, search_.tuning.blocked_by_line, 0);
     strongest_ = std::max(strongest_, height(line) * std::min(1.0, length(line) / (3 * least)));
     return;
   }
   futile_ += search_.tuning.futile_line + length(line) / groups_.all[line.group].kernels->sigma;
-  block(line, search_.tuning.blocked_by_rejected);
+  block(line, search_.tuning.blocked_by_rejected, seed_level);
   take_back(line);
 }
 
-/// No line begins within so many sigma of this one any more, where its flanks
-/// would be followed over and over.
+/// No line begins within so many sigma of this one any more, where its flanks would be followed over and
+/// over: none that stands out in the pyramid's `finest_level` or a coarser one.
 template <class T>
-void LineFinder<T>::block(const Followed& line, double sigmas) {
+void LineFinder<T>::block(const Followed& line, double sigmas, int finest_level) {
+  const auto levels = static_cast<std::uint8_t>(0xFFU << finest_level);
   const ScaleGroup& g = groups_.all[line.group];
   const double reach = sigmas * g.kernels->sigma;
   const std::size_t step = 2;
@@ -295,7 +298,7 @@ void LineFinder<T>::block(const Followed& line, double sigmas) {
     for (double aside = -reach; aside <= reach; aside += 3) {
       const auto x = static_cast<int>(std::lround(p.x + aside * p.normal_x)),
                  y = static_cast<int>(std::lround(p.y + aside * p.normal_y));
-      if (search_.image.contains(x, y)) blocked(x, y) = 1;
+      if (search_.image.contains(x, y)) blocked(x, y) |= levels;
     }
   }
 }
@@ -303,12 +306,12 @@ void LineFinder<T>::block(const Followed& line, double sigmas) {
 template <class T>
 void LineFinder<T>::try_seed(const ScaleSeed& seed) {
   if (!search_.image.contains(seed.x, seed.y) ||
-      search_.image.laser_colour(seed.x, seed.y) < LaserPlace::kSure)
+      search_.image.laser_colour(seed.x, seed.y) < LaserPlace::kFaint)
     return;
   const std::uint16_t label = following_.mask(seed.x, seed.y);
   if (label != ExclusionMask::kFree && label != ExclusionMask::kDead) return;
   std::uint8_t& cell = tried(seed.level, seed.x, seed.y);
-  if (cell != 0 || blocked(seed.x, seed.y) != 0) return;
+  if (cell != 0 || (blocked(seed.x, seed.y) & (1U << seed.level)) != 0) return;
   cell = 1;
   const RungRange rungs = rungs_of(seed.level);
   const auto ridge = best_scale(w_.pyramid, kernels_, seed.x, seed.y, rungs.first, rungs.last);
@@ -318,7 +321,7 @@ void LineFinder<T>::try_seed(const ScaleSeed& seed) {
   }
   auto line = follow(group_for(ridge->sigma, search_.tuning.shared_scale), seed.x, seed.y);
   if (line) line = at_own_scale(*line, seed.x, seed.y);
-  if (line) keep_or_reject(*line);
+  if (line) keep_or_reject(*line, seed.level);
 }
 
 template <class T>

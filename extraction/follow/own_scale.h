@@ -46,7 +46,8 @@ struct OwnScaleWorkspace {
   std::vector<ScaleSeed> found, seeds;
   /// One a level: cells in which no line begins.
   std::array<std::vector<std::uint8_t>, ImagePyramid<T>::kMostLevels> tried;
-  std::vector<std::uint8_t> blocked;  ///< cells of 4 x 4 pixels beside lines that were followed
+  /// Cells of 4 x 4 pixels beside lines that were followed; bit k: no seed of level k is tried there.
+  std::vector<std::uint8_t> blocked;
   std::vector<StripePoint> binned_points;
 };
 

@@ -19,10 +19,13 @@ constexpr double kTopNoise = 0.62;
 /// Of the smaller over the larger drop: an edge drops on one side only; a line on a step of its own height
 /// has 0.33.
 constexpr double kLeastFlanks = 0.3;
-/// Of the mean height of a crowd of edges, and how long they are together against the lines to be a crowd.
-constexpr double kOverEdges = 1.2, kManyEdges = 0.25;
-/// Of min_length, where the whole evidence is judged as well.
-constexpr double kShortest = 0.5, kColouredEvidence = 0.4, kGreyEvidence = 0.6;
+/// Rise of the laser's colour over the rise of the grey value: laser light has 0.2 to 0.9 (0.12 where it is
+/// nearly clipped), the edges of printed things in its glow less than 0.06.
+constexpr double kLeastColour = 0.08;
+/// Of min_length: shorter lines are not looked at further in a colour picture.
+constexpr double kShortest = 0.5;
+/// Full widths: a stretch in other light that is longer is no part of the line.
+constexpr double kLongestOther = 1.5;
 
 struct Trial {
   const DerivativeKernels& kernels;
@@ -44,18 +47,26 @@ struct Trial {
   }
 };
 
-/// Whether the stripe itself is there, unsmoothed: the kernels see a line's end up to sigma beyond it.
+/// Whether light is there, unsmoothed: the kernels see a line's end up to sigma beyond it.
+bool has_contrast(const Trial& t, const LineRange& r, std::size_t i) {
+  return t.contrast(r, i) >= 2.5 * kTopNoise * t.profile_noise;
+}
+bool has_colour(const Trial& t, std::size_t i) {
+  return t.w.colour[i] != LaserPlace::kNone && t.w.colour[i] != kOtherLight;
+}
+/// Whether the stripe itself is there.
 bool is_lit(const Trial& t, const LineRange& r, std::size_t i) {
-  return t.contrast(r, i) >= 2.5 * kTopNoise * t.profile_noise && t.w.colour[i] != LaserPlace::kNone;
+  return has_contrast(t, r, i) && has_colour(t, i);
 }
 
 /// Cuts unlit and bridged points off both ends. A lit end has half the contrast of the line a little further
-/// in: what is darker was only blurred over the end.
+/// in: what is darker was only blurred over the end. Where it is dark there, the end is a spot that was met
+/// by chance.
 LineRange trimmed(const Trial& t, const LineSet& lines, LineRange r) {
   const auto inside = static_cast<std::size_t>(std::lround(2.0 * t.kernels.sigma)) + 1;
   const auto bad = [&](std::size_t i, std::size_t further_in) {
     return (lines.points[i].flags & kStripeBridged) != 0 || !is_lit(t, r, i) ||
-           t.contrast(r, i) < 0.5 * t.contrast(r, further_in);
+           !has_contrast(t, r, further_in) || t.contrast(r, i) < 0.5 * t.contrast(r, further_in);
   };
   while (r.size() > inside && bad(r.begin, r.begin + inside)) ++r.begin;
   while (r.size() > inside && bad(r.end - 1, r.end - 1 - inside)) --r.end;
@@ -97,7 +108,7 @@ bool has_bad_point(const Trial& t, const LineSet& lines, const LineRange& r, dou
   const double lit = 2.5 * kTopNoise * t.profile_noise;
   for (std::size_t i = r.begin; i < r.end; ++i)
     if (lines.points[i].width > width || static_cast<double>(t.w.measure.contrast[i]) < lit ||
-        t.w.colour[i] == LaserPlace::kNone)
+        !has_colour(t, i))
       return true;
   return false;
 }
@@ -120,14 +131,21 @@ void find_bad_stretches(Trial& t, const LineSet& lines, const LineRange& r, std:
         Trial::median_of_three(a.width, p.width, b.width) > (clipped ? clipped_spot_width : spot_width);
     if (!wide && is_lit(t, r, i)) continue;
     if (stretches.empty() || i - stretches.back().last > (wide || stretches.back().spot ? least_run : 1))
-      stretches.push_back({i, i, wide});
+      stretches.push_back({i, i, wide, 0});
     stretches.back().last = i;
+    stretches.back().other_light += t.w.colour[i] == kOtherLight ? 1U : 0U;
     stretches.back().spot = stretches.back().spot || wide;
   }
 }
 
 double stretch_width(Trial& t, const LineSet& lines, const BadStretch& bad) {
   return median_width(t, lines, {bad.first, bad.last + 1});
+}
+
+/// A line that is lit over some length by other light than the laser's was followed along an edge.
+bool is_other_light(const Trial& t, const BadStretch& bad) {
+  const std::size_t size = bad.last - bad.first + 1;
+  return 2 * bad.other_light > size && static_cast<double>(size) > kLongestOther * t.full_width;
 }
 
 /// Bright spots on the line: bridged where both sides agree, else the line is cut there. Long unlit stretches
@@ -142,7 +160,8 @@ void mend_or_cut(Trial& t, LineSet& lines, const LineRange& whole) {
   const double width = median_width(t, lines, r);
   std::size_t begin = r.begin;
   for (const BadStretch& bad : t.w.stretches) {
-    if (!bad.spot && bad.last - bad.first < longest) {
+    const bool other_light = is_other_light(t, bad);
+    if (!bad.spot && bad.last - bad.first < longest && !other_light) {
       // Dark, but the kernels followed a ridge there: it stays as a bridge.
       for (std::size_t k = bad.first; k <= bad.last; ++k) lines.points[k].flags |= kStripeBridged;
       continue;
@@ -152,9 +171,12 @@ void mend_or_cut(Trial& t, LineSet& lines, const LineRange& whole) {
     const std::size_t after = std::min(bad.last + grown, r.end);
     // A short rest behind a spot is the spot's own tip.
     const bool inside = before >= begin + least_run && after + least_run <= r.end;
-    if (inside && bad.last - bad.first < longest && bridge_stretch(lines.points, before, after)) continue;
+    if (!other_light && inside && bad.last - bad.first < longest &&
+        bridge_stretch(lines.points, before, after))
+      continue;
     // Bloom widens the line, but it goes on inside.
-    if (bad.spot && stretch_width(t, lines, bad) < 2 * t.options.spot_width_ratio * width) continue;
+    if (bad.spot && !other_light && stretch_width(t, lines, bad) < 2 * t.options.spot_width_ratio * width)
+      continue;
     keep(t, lines, {begin, before});
     begin = after;
   }
@@ -198,7 +220,7 @@ LineFacts facts_of(Trial& t, const LineSet& lines, const LineRange& r) {
     const StripePoint& p = lines.points[i];
     bridged += (p.flags & kStripeBridged) != 0 ? 1U : 0U;
     odd += (p.flags & (kStripeBridged | kStripeAsymmetric)) != 0 ? 1U : 0U;
-    coloured += t.w.colour[i] != LaserPlace::kNone ? 1U : 0U;
+    coloured += has_colour(t, i) ? 1U : 0U;
     facts.mean_strength += p.strength;
   }
   const auto count = static_cast<double>(r.size());
@@ -219,6 +241,7 @@ bool is_stripe_like(const Trial& t, const LineFacts& line) {
   const double least = t.width_slack > 1 && line.colour_known ? kShortest : 1.0;
   if (line.length < least * t.options.min_length * t.full_width || line.bridged_share > 0.5) return false;
   if (line.flanks < kLeastFlanks || line.coloured_share < 0.5) return false;
+  if (line.colour.known && line.colour.share < kLeastColour) return false;
   const double ratio = std::max(line.width, 1e-3) / t.full_width;
   const double most =
       line.length < 12 * t.full_width ? 0.75 * t.options.max_width_ratio : t.options.max_width_ratio;
@@ -238,85 +261,12 @@ bool is_hot_column(const LineSet& lines, const LineRange& r, const LineFacts& fa
   return true;
 }
 
-/// What a strong stripe of this image looks like.
-struct Reference {
-  double intensity = 0;  ///< of the brightest line, short ones counting less
-  double width = 0;      ///< px, of the lines at least half as bright
-};
+}  // namespace
 
-/// Median of the widths of the lines that are at least so bright, weighted by their length; px.
-double commonest_width(std::span<const FilteredLines> groups, double least_intensity) {
-  std::array<double, 64> lengths{};  // by the width in eighths of an octave
-  double total = 0;
-  for (const FilteredLines& group : groups)
-    for (const LineFacts& line : *group.facts) {
-      if (line.intensity < least_intensity) continue;
-      const double index = std::clamp(8 * std::log2(std::max(line.width, 1.0)), 0.0, 63.0);
-      lengths[static_cast<std::size_t>(index)] += line.length;
-      total += line.length;
-    }
-  double below = 0;
-  for (std::size_t i = 0; i < lengths.size(); ++i) {
-    below += lengths[i];
-    if (total > 0 && below >= 0.5 * total) return std::exp2((static_cast<double>(i) + 0.5) / 8);
-  }
-  return 0;
-}
-
-Reference strong_stripe(std::span<const FilteredLines> groups, const LineFilterOptions& options) {
-  Reference reference;
-  for (const FilteredLines& group : groups) {
-    const double full_length = 3 * options.min_length * full_width_of(group.kernels->sigma);
-    for (const LineFacts& line : *group.facts)
-      reference.intensity =
-          std::max(reference.intensity, line.intensity * std::min(1.0, line.length / full_length));
-  }
-  reference.width = commonest_width(groups, 0.5 * reference.intensity);
-  return reference;
-}
-
-/// How much speaks for a line: long, bright, with two even flanks, all of it in the laser's colour. Crumbs of
-/// texture and edges lack a little of each. In stripe widths of a perfect line.
-double evidence(const LineFacts& line, double widths, double share) {
-  return widths * std::min(share, 1.0) * line.flanks * (1 - 0.5 * line.odd_share) * line.coloured_share *
-         line.coloured_share;
-}
-
-/// Brightness against the strong lines: weak lines have to be regular and as wide as the strong ones.
-bool is_bright_enough(const DerivativeKernels& kernels, double noise, const LineFilterOptions& options,
-                      double width_slack, const LineFacts& line, const Reference& reference) {
-  const double share = line.intensity / reference.intensity;
-  // Single pixels of a wide stripe may drown in noise that its ridge stands out of.
-  const double visible = options.min_contrast_to_noise * noise / std::max(1.0, kernels.sigma);
-  const double strength_noise = noise * kernels.curvature_gain;
-  if (line.intensity < visible || line.mean_strength < 5 * strength_noise || share < options.min_contrast)
-    return false;
-  const double full_width = std::max(full_width_of(kernels.sigma), 0.8 * reference.width);
-  const double widths = line.length / full_width;
-  if (width_slack > 1 && evidence(line, widths, share) <
-                             (line.colour_known ? kColouredEvidence : kGreyEvidence) * options.min_length)
-    return false;
-  if (share > options.clear_contrast) return true;
-  // Mirror images and gleams are about as faint as this, but seldom as long and as even as the laser's line.
-  constexpr double kFaint = 0.15, kEvenFlanks = 0.5;
-  if (share < kFaint && (line.length < 3 * options.min_length * full_width || line.flanks < kEvenFlanks ||
-                         line.odd_share > std::min(0.005 * widths, 0.4) || line.coloured_share < 0.8))
-    return false;
-  // The weaker, the longer: dim edges are short.
-  if (line.length * share < options.clear_contrast * options.min_length * full_width) return false;
-  const double ratio = line.width / reference.width;
-  // Bridges and uneven flanks are rare on a stripe, frequent on stains and edges.
-  const double most_odd = std::min(0.2 + 0.03 * std::max(0.0, widths - options.min_length), 0.5);
-  const bool usual_width = width_slack > 1 || (ratio > 0.65 && ratio < 1.5);
-  return line.odd_share < most_odd && usual_width;
-}
-
-/// Removes the lines (and their facts) that fail.
-template <class Test>
-void keep_if(LineSet& lines, std::vector<LineFacts>& facts, const Test& test) {
+void drop_lines(LineSet& lines, std::vector<LineFacts>& facts) {
   std::size_t kept = 0;
   for (std::size_t k = 0; k < lines.lines.size(); ++k) {
-    if (!test(facts[k])) continue;
+    if (!facts[k].kept) continue;
     lines.lines[kept] = lines.lines[k];
     facts[kept++] = facts[k];
   }
@@ -325,59 +275,34 @@ void keep_if(LineSet& lines, std::vector<LineFacts>& facts, const Test& test) {
 }
 
 template <class T>
-void look_at_colours(ImageView<T> image, const LineSet& lines, std::vector<std::uint8_t>& colour) {
-  colour.assign(lines.points.size(), LaserPlace::kSure);
-  if (image.where == nullptr) return;
-  for (std::size_t i = 0; i < colour.size(); ++i) {
-    const StripePoint& p = lines.points[i];
-    const int x = std::clamp(static_cast<int>(p.x + 0.5), 0, image.width - 1),
-              y = std::clamp(static_cast<int>(p.y + 0.5), 0, image.height - 1);
-    colour[i] = image.laser_colour(x, y);
-  }
-}
-
-}  // namespace
-
-template <class T>
 void filter_lines(ImageView<T> image, const DerivativeKernels& kernels, double noise,
                   const LineFilterOptions& options, double width_slack, LineFilterWorkspace& workspace,
                   LineSet& lines, std::vector<LineFacts>& facts) {
   Trial trial{
       kernels, noise, options, workspace, full_width_of(kernels.sigma), width_slack, image.where != nullptr};
   measure_points(image, kernels, noise, lines, workspace.measure);
-  look_at_colours(image, lines, workspace.colour);
+  workspace.colour.assign(lines.points.size(), LaserPlace::kSure);
+  workspace.tried += lines.lines.size();
   workspace.kept.clear();
   for (std::size_t k = 0; k < lines.lines.size(); ++k) {
     trial.profile_noise = noise / std::sqrt(workspace.measure.averaged[k]);
+    if (trial.colour_known)
+      place_points(image, lines, lines.lines[k], median_width(trial, lines, lines.lines[k]),
+                   workspace.colours, workspace.colour);
     mend_or_cut(trial, lines, lines.lines[k]);
   }
   std::swap(lines.lines, workspace.kept);
   facts.clear();
   for (const LineRange& r : lines.lines) {
     LineFacts& line = facts.emplace_back(facts_of(trial, lines, r));
+    line.colour = colour_of_line(image, lines, r, line.width, workspace.colours);
     if (width_slack > 1 && is_hot_column(lines, r, line)) line.length = 0;
     if (line.flanks >= kLeastFlanks) continue;
     workspace.edges.length += line.length;
     workspace.edges.weighted_height += 2 * line.intensity * line.length;
   }
-  keep_if(lines, facts, [&](const LineFacts& line) { return is_stripe_like(trial, line); });
-}
-
-void drop_faint_lines(std::span<const FilteredLines> groups, double noise, const LineFilterOptions& options,
-                      double width_slack, double least_height, const EdgeCrowd& edges) {
-  Reference reference = strong_stripe(groups, options);
-  reference.intensity = std::max(reference.intensity, least_height);
-  double kept = 0;
-  for (const FilteredLines& group : groups)
-    for (const LineFacts& line : *group.facts) kept += line.length;
-  // In a grey picture full of edges a line no brighter than they are is made by the same things.
-  const double least_intensity =
-      width_slack > 1 && edges.length > kManyEdges * kept ? kOverEdges * edges.height() : 0.0;
-  for (const FilteredLines& group : groups)
-    keep_if(*group.lines, *group.facts, [&](const LineFacts& line) {
-      return (line.colour_known || line.intensity > least_intensity) &&
-             is_bright_enough(*group.kernels, noise, options, width_slack, line, reference);
-    });
+  for (LineFacts& line : facts) line.kept = is_stripe_like(trial, line);
+  drop_lines(lines, facts);
 }
 
 template void filter_lines<std::uint8_t>(ImageView8, const DerivativeKernels&, double,

@@ -10,6 +10,7 @@
 
 #include "core/image.h"
 #include "extraction/kernels/kernels.h"
+#include "extraction/lines/line_colour.h"
 #include "extraction/lines/line_filter_options.h"
 #include "extraction/lines/line_measure.h"
 #include "extraction/lines/line_set.h"
@@ -19,7 +20,8 @@ namespace lightstripe {
 /// A stretch of bad points, [first, last].
 struct BadStretch {
   std::size_t first = 0, last = 0;
-  bool spot = false;  ///< wider than the stripe; else unlit
+  bool spot = false;            ///< wider than the stripe; else unlit
+  std::size_t other_light = 0;  ///< points that are lit, but not in the laser's colour
 };
 
 /// What a whole line is like.
@@ -33,6 +35,8 @@ struct LineFacts {
   double flanks = 1;          ///< median of the smaller over the larger drop to both sides; an edge has 0
   bool colour_known = false;  ///< the picture tells where the laser's colour is
   double coloured_share = 1;  ///< of the points, where the laser's colour is
+  LineColour colour;          ///< of the light that makes the line
+  bool kept = true;           ///< verdict so far
 };
 
 /// The edges met among the lines, which drop on one side only.
@@ -48,7 +52,9 @@ struct LineFilterWorkspace {
   std::vector<float> scratch;
   std::vector<BadStretch> stretches;
   EdgeCrowd edges;                   ///< added up over the scales of one image
+  std::size_t tried = 0;             ///< lines that were followed, likewise
   std::vector<std::uint8_t> colour;  ///< one a point: LaserPlace
+  ColourWorkspace colours;
   std::vector<LineRange> kept;
 };
 
@@ -63,16 +69,7 @@ void filter_lines(ImageView<T> image, const DerivativeKernels& kernels, double n
                   const LineFilterOptions& options, double width_slack, LineFilterWorkspace& workspace,
                   LineSet& lines, std::vector<LineFacts>& facts);
 
-/// Lines of one scale.
-struct FilteredLines {
-  const DerivativeKernels* kernels = nullptr;
-  LineSet* lines = nullptr;
-  std::vector<LineFacts>* facts = nullptr;
-};
-
-/// Drops the lines that are too faint against the strong ones of the same image, whatever their scale, or
-/// against `least_height` grey levels where even the strongest is fainter.
-void drop_faint_lines(std::span<const FilteredLines> groups, double noise, const LineFilterOptions& options,
-                      double width_slack, double least_height, const EdgeCrowd& edges);
+/// Removes the lines (and their facts) that are not kept.
+void drop_lines(LineSet& lines, std::vector<LineFacts>& facts);
 
 }  // namespace lightstripe

@@ -20,7 +20,7 @@ function table(parent, header, rows) {
   header.forEach(h => element('th', h, head));
   rows.forEach(r => {
     const line = element('tr', undefined, t);
-    r.forEach(c => element('td', c, line, typeof c === 'string' && c !== '-' && isNaN(Number(c)) ? 'text' : ''));
+    r.forEach(c => element('td', c, line, typeof c === 'string' && !/^(-|[-+]?[\d.]+)$/.test(c) ? 'text' : ''));
   });
   return t;
 }

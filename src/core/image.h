@@ -15,6 +15,8 @@ namespace lightstripe {
 struct LaserPlace {
   static constexpr std::uint8_t kNone = 0, kFaint = 1, kSure = 2;
 };
+/// Level of an image's `rise` where the laser's own channel is clipped, so that its colour tells nothing.
+inline constexpr std::uint8_t kClippedRise = 255;
 
 /// Pixels of somebody else (a cv::Mat, a line-scan camera's buffer, an array). `stride` counts elements, not
 /// bytes.
@@ -27,6 +29,9 @@ struct ImageView {
   /// Where light of the laser's colour was seen, one byte a pixel with the same stride (LaserPlace); null:
   /// nobody knows, it may be anywhere.
   const std::uint8_t* where = nullptr;
+  /// By how many grey levels the laser's channel rises over the other two, against its surroundings: one byte
+  /// a pixel with the same stride, kClippedRise in clipped cores; null: nobody knows.
+  const std::uint8_t* rise = nullptr;
 
   const T* row(int y) const { return data + y * stride; }
   T operator()(int x, int y) const { return row(y)[x]; }
@@ -34,7 +39,10 @@ struct ImageView {
   bool contains(int x, int y) const { return x >= 0 && y >= 0 && x < width && y < height; }
   /// The part of `w` x `h` pixels that begins at (x, y), which has to lie inside.
   ImageView crop(int x, int y, int w, int h) const {
-    return {row(y) + x, w, h, stride, where == nullptr ? nullptr : where + y * stride + x};
+    const auto moved = [&](const std::uint8_t* plane) {
+      return plane == nullptr ? nullptr : plane + y * stride + x;
+    };
+    return {row(y) + x, w, h, stride, moved(where), moved(rise)};
   }
   /// How sure the laser's colour is at a pixel; sure everywhere in a picture without colour.
   std::uint8_t laser_colour(int x, int y) const {
@@ -48,14 +56,19 @@ struct Image {
   std::vector<T> pixels;
   int width = 0;
   int height = 0;
-  std::vector<std::uint8_t> where;  ///< as in ImageView; empty: nobody knows
+  std::vector<std::uint8_t> where, rise;  ///< as in ImageView; empty: nobody knows
 
   Image() = default;
   Image(int w, int h, T value = T{})
       : pixels(static_cast<std::size_t>(w) * static_cast<std::size_t>(h), value), width(w), height(h) {}
 
   ImageView<T> view() const {
-    return {pixels.data(), width, height, width, where.empty() ? nullptr : where.data()};
+    return {pixels.data(),
+            width,
+            height,
+            width,
+            where.empty() ? nullptr : where.data(),
+            rise.empty() ? nullptr : rise.data()};
   }
   operator ImageView<T>() const { return view(); }  // NOLINT(google-explicit-constructor): an owner is a view
   T* row(int y) { return pixels.data() + static_cast<std::ptrdiff_t>(y) * width; }

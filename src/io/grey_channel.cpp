@@ -96,7 +96,9 @@ Image8 grey_values(const cv::Mat& picture, Channel channel, const std::string& f
     const auto bgr = planes(picture);
     const std::size_t plane = plane_of(channel);
     Image8 image = image8_of(is_clipped(channel) ? clipped_light(bgr, plane) : bgr.at(plane));
-    image.where = where_laser_colour(bgr, plane);
+    LaserColour colour = where_laser_colour(bgr, plane);
+    image.where = std::move(colour.where);
+    image.rise = std::move(colour.rise);
     return image;
   }
   cv::Mat grey;

@@ -156,19 +156,28 @@ ColourRise colour_rise(const ColourPlanes& bgr, std::size_t plane) {
   return rise;
 }
 
-std::vector<std::uint8_t> where_laser_colour(const ColourPlanes& bgr, std::size_t plane) {
-  const LaserMasks m = masks_of(colour_rise(bgr, plane), bgr.at(plane));
+LaserColour where_laser_colour(const ColourPlanes& bgr, std::size_t plane) {
+  const ColourRise rise = colour_rise(bgr, plane);
+  const LaserMasks m = masks_of(rise, bgr.at(plane));
   cv::Mat sure, faint;
   cv::dilate(m.sure | m.core, sure, square(kMargin));
   cv::dilate(m.faint | m.core, faint, square(kMargin));
-  std::vector<std::uint8_t> where;
-  where.reserve(sure.total());
+  LaserColour colour;
+  colour.where.reserve(sure.total());
+  colour.rise.reserve(sure.total());
   for (int y = 0; y < sure.rows; ++y) {
-    const auto *s = sure.ptr<std::uint8_t>(y), *f = faint.ptr<std::uint8_t>(y);
-    for (int x = 0; x < sure.cols; ++x)
-      where.push_back(s[x] != 0 ? LaserPlace::kSure : f[x] != 0 ? LaserPlace::kFaint : LaserPlace::kNone);
+    const auto *s = sure.ptr<std::uint8_t>(y), *f = faint.ptr<std::uint8_t>(y),
+               *core = m.core.ptr<std::uint8_t>(y);
+    const auto* level = rise.level.ptr<std::int16_t>(y);
+    for (int x = 0; x < sure.cols; ++x) {
+      colour.where.push_back(s[x] != 0   ? LaserPlace::kSure
+                             : f[x] != 0 ? LaserPlace::kFaint
+                                         : LaserPlace::kNone);
+      colour.rise.push_back(core[x] != 0 ? kClippedRise
+                                         : static_cast<std::uint8_t>(std::clamp<int>(level[x], 0, 254)));
+    }
   }
-  return where;
+  return colour;
 }
 
 LaserVote vote_for_laser(const ColourPlanes& bgr) {

@@ -21,9 +21,15 @@ struct ColourRise {
 };
 ColourRise colour_rise(const ColourPlanes& bgr, std::size_t plane);
 
-/// One LaserPlace level a pixel. Pixels that rise by a fifth of the top are sure, those that rise out of the
+/// What colour tells of each pixel.
+struct LaserColour {
+  std::vector<std::uint8_t> where;  ///< LaserPlace
+  std::vector<std::uint8_t> rise;   ///< ColourRise's level, at most 254 grey levels, or kClippedRise
+};
+
+/// `where`: pixels that rise by a fifth of the top are sure, those that rise out of the
 /// noise faint; a clipped white core belongs to the coloured rim around it; both are widened by 4 px.
-std::vector<std::uint8_t> where_laser_colour(const ColourPlanes& bgr, std::size_t plane);
+LaserColour where_laser_colour(const ColourPlanes& bgr, std::size_t plane);
 
 /// What speaks for a laser of one colour in a picture.
 struct LaserVote {

@@ -32,6 +32,7 @@ struct ScanFields {
   std::vector<std::pair<std::string, std::string>> frames;
   std::optional<TravelFields> travel;
   std::optional<Channel> channel;
+  std::optional<std::string> polarity;  ///< as extraction: {polarity: ...}
   YamlSubtree extraction;
 };
 template <class V>
@@ -40,6 +41,7 @@ void visit_fields(V&& v, ScanFields& o) {
   v("frames", o.frames);
   v("travel", o.travel);
   v("channel", o.channel);
+  v("polarity", o.polarity);
   v("extraction", o.extraction);
 }
 
@@ -89,6 +91,8 @@ Scan read_scan(const std::filesystem::path& path) {
   }
   if (fields.channel) scan.channel = *fields.channel;
   scan.extraction = fields.extraction;
+  if (scan.extraction.origin.empty()) scan.extraction.origin = path.string() + ": extraction";
+  if (fields.polarity) detail::add_entry(scan.extraction, "polarity", *fields.polarity);
   return scan;
 }
 

@@ -63,6 +63,7 @@ struct SessionFields {
   std::optional<MotionFields> motion;
   std::optional<Eigen::Vector3d> up;
   std::optional<Channel> channel;
+  std::optional<std::string> polarity;  ///< as extraction: {polarity: ...}
   YamlSubtree extraction, calibration;
 };
 template <class V>
@@ -72,6 +73,7 @@ void visit_fields(V&& v, SessionFields& o) {
   v("motion", o.motion);
   v("up", o.up);
   v("channel", o.channel);
+  v("polarity", o.polarity);
   v("extraction", o.extraction);
   v("calibration", o.calibration);
 }
@@ -174,6 +176,8 @@ Session read_session(const std::filesystem::path& path) {
                 "point it up in the first sensor's camera frame");
   if (fields.channel) session.channel = *fields.channel;
   session.extraction = fields.extraction;
+  if (session.extraction.origin.empty()) session.extraction.origin = path.string() + ": extraction";
+  if (fields.polarity) detail::add_entry(session.extraction, "polarity", *fields.polarity);
   session.calibration = fields.calibration;
   return session;
 }

@@ -161,6 +161,21 @@ YamlPlace place_of(const YamlSubtree& part) {
   return {part.origin.substr(0, colon), part.origin.substr(colon + 2)};
 }
 
+void add_entry(YamlSubtree& part, const std::string& key, const std::string& text) {
+  const YamlPlace place = place_of(part);
+  YamlNode map;
+  if (!part.empty()) map = parse_yaml(part.text, place);
+  if (map.kind == Kind::kNull) map.kind = Kind::kMap;
+  check_map(map, place);
+  for (const YamlNode& item : map.items)
+    if (item.key == key) fail_at(place.child(key), item.line, "is given twice", "give it once");
+  YamlNode entry;
+  write_field(entry, text);
+  entry.key = key;
+  map.items.push_back(std::move(entry));
+  part.text = emit_on_lines(map);
+}
+
 YamlNode parse_override(const std::string& text) {
   try {
     YamlNode node = parse_yaml(text, {});

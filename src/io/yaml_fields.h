@@ -57,6 +57,8 @@ void check_map(const YamlNode& node, const YamlPlace& place);
 [[noreturn]] void fail_unknown_key(const YamlPlace& place, std::string_view key, int line,
                                    const std::vector<std::string_view>& known);
 YamlPlace place_of(const YamlSubtree& part);
+/// Adds `key: text` to the part, which has to be a map without that key.
+void add_entry(YamlSubtree& part, const std::string& key, const std::string& text);
 /// The text of an override as a tree: YAML, or the plain text where it is none.
 YamlNode parse_override(const std::string& text);
 void for_each_leaf(

@@ -98,6 +98,26 @@ TEST(OwnScale, EdgesWithoutALaserAreNoLines) {
   EXPECT_TRUE(extract_stripes(image.view()).stripes.empty());
 }
 
+TEST(OwnScale, ABroadKernelDoesNotJoinPiecesThatLieBesideEachOther) {
+  // Glow around the line lets a broad kernel begin; the line jumps by three of its widths in the middle.
+  Random random(5, 7);
+  Image8 image(400, 400);
+  const auto centre = [](int y) { return y < 220 ? 200.3 : y < 260 ? 212.3 : 200.3; };
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x) {
+      const double d = x - centre(y), glow = y < 100 ? 110 * std::exp(-0.5 * d * d / 64) : 0;
+      const double level = 12 + 2 * random.gaussian() + 90 * std::exp(-0.5 * d * d / 3) + glow;
+      image(x, y) = static_cast<std::uint8_t>(std::clamp(std::lround(level), 0L, 255L));
+    }
+  const auto found = extract_stripes(image.view());
+  int covered = 0, astray = 0;
+  for (const Stripe& stripe : found.stripes)
+    for (const StripePoint& p : stripe.points)
+      ++(std::abs(p.x - centre(static_cast<int>(std::lround(p.y)))) < 2 ? covered : astray);
+  EXPECT_GT(covered, 385);
+  EXPECT_LT(astray, 8);
+}
+
 TEST(OwnScale, LightOfTheLasersColourTellsTheLineFromOthers) {
   Image8 image = vertical_stripes({{100.2, 2.0}, {300.3, 2.0}}, 2);
   image.where.assign(image.pixels.size(), LaserPlace::kNone);

@@ -54,7 +54,7 @@ TEST(LaserVote, AWhiteCoreHasTheColourOfItsRim) {
 TEST(LaserVote, NothingWithoutColour) { EXPECT_EQ(vote_for_laser(room_with_line({90, 90, 90})).plane, -1); }
 
 TEST(WhereLaserColour, IsSureOnTheLineWithItsClippedCoreAndNowhereElse) {
-  const auto where = where_laser_colour(room_with_line({300, 300, 1500}), 2);
+  const auto where = where_laser_colour(room_with_line({300, 300, 1500}), 2).where;
   for (int y = 0; y < 240; ++y) {
     const std::uint8_t* row = where.data() + static_cast<std::ptrdiff_t>(y) * 320;
     for (int x = 152; x <= 168; ++x) EXPECT_EQ(row[x], LaserPlace::kSure) << x << ' ' << y;

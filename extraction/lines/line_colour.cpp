@@ -1,0 +1,120 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+#include "extraction/lines/line_colour.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+
+#include "extraction/lines/line_measure.h"
+
+namespace lightstripe {
+namespace {
+
+/// Full widths from the centre to where the colour of the surroundings is read: 3 standard deviations of a
+/// Gaussian stripe.
+constexpr double kAside = 0.9;
+/// Pixels, at least so far aside: the colour is known in means of 3 x 3 pixels.
+constexpr double kLeastAside = 3;
+/// Of the points that are looked at: with fewer unclipped ones the colour of the line is not known.
+constexpr double kLeastKnown = 0.5;
+/// Of the rise that the line has elsewhere, and of the one that belongs to the grey value here: below both of
+/// them light is not the laser's.
+constexpr double kAstray = 0.4;
+/// Grey levels: where less rise is expected, quantisation and noise hide the colour.
+constexpr double kClearRise = 12;
+constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
+
+template <class T>
+int rise_at(ImageView<T> image, double x, double y) {
+  const int column = std::clamp(static_cast<int>(std::lround(x)), 0, image.width - 1),
+            row = std::clamp(static_cast<int>(std::lround(y)), 0, image.height - 1);
+  return image.rise[row * image.stride + column];
+}
+
+/// Rise of the colour at one point over the mean of both sides, grey levels; NaN in a clipped core.
+template <class T>
+float rise_over_sides(ImageView<T> image, const StripePoint& p, double aside) {
+  const int at = rise_at(image, p.x, p.y);
+  if (at == kClippedRise) return kUnknown;
+  const int left = rise_at(image, p.x - aside * p.normal_x, p.y - aside * p.normal_y),
+            right = rise_at(image, p.x + aside * p.normal_x, p.y + aside * p.normal_y);
+  return static_cast<float>(at) - 0.5F * static_cast<float>(left + right);
+}
+
+double median_of_known(const std::vector<float>& values, std::vector<float>& scratch) {
+  scratch.clear();
+  std::copy_if(values.begin(), values.end(), std::back_inserter(scratch),
+               [](float v) { return !std::isnan(v); });
+  return median_of(scratch);
+}
+
+/// Every `step`-th point.
+template <class T>
+LineColour look_at_line(ImageView<T> image, const LineSet& lines, const LineRange& range, double width,
+                        std::size_t step, ColourWorkspace& w) {
+  const double aside = std::max(kLeastAside, kAside * width);
+  w.rises.clear();
+  w.shares.clear();
+  std::size_t looked_at = 0, known = 0;
+  for (std::size_t i = range.begin; i < range.end; i += step) {
+    const StripePoint& p = lines.points[i];
+    const bool bridged = (p.flags & kStripeBridged) != 0;
+    const float rise = bridged ? kUnknown : rise_over_sides(image, p, aside);
+    looked_at += bridged ? 0U : 1U;
+    known += std::isnan(rise) ? 0U : 1U;
+    w.rises.push_back(rise);
+    w.shares.push_back(rise / std::max(1.0F, p.intensity));
+  }
+  if (known == 0 || static_cast<double>(known) < kLeastKnown * static_cast<double>(looked_at)) return {};
+  return {true, median_of_known(w.rises, w.scratch), median_of_known(w.shares, w.scratch)};
+}
+
+}  // namespace
+
+template <class T>
+LineColour colour_of_line(ImageView<T> image, const LineSet& lines, const LineRange& range, double width,
+                          ColourWorkspace& workspace) {
+  if (image.rise == nullptr) return {};
+  return look_at_line(image, lines, range, width, sample_step(range), workspace);
+}
+
+template <class T>
+void place_points(ImageView<T> image, const LineSet& lines, const LineRange& range, double width,
+                  ColourWorkspace& w, std::vector<std::uint8_t>& place) {
+  for (std::size_t i = range.begin; i < range.end; ++i) {
+    const StripePoint& p = lines.points[i];
+    place[i] = image.laser_colour(std::clamp(static_cast<int>(p.x + 0.5), 0, image.width - 1),
+                                  std::clamp(static_cast<int>(p.y + 0.5), 0, image.height - 1));
+  }
+  if (image.rise == nullptr) return;
+  const LineColour line = look_at_line(image, lines, range, width, 1, w);
+  if (!line.known) return;
+  // Means along the line, about as long as it is wide.
+  const auto reach = static_cast<std::size_t>(std::lround(std::max(1.0, 0.5 * width)));
+  for (std::size_t i = 0; i < range.size(); ++i) {
+    const std::size_t first = i > reach ? i - reach : 0, end = std::min(range.size(), i + reach + 1);
+    double rise = 0, expected = 0, known = 0;
+    for (std::size_t k = first; k < end; ++k) {
+      if (std::isnan(w.rises[k])) continue;
+      rise += double{w.rises[k]};
+      expected += line.share * double{lines.points[range.begin + k].intensity};
+      known += 1;
+    }
+    if (2 * known > static_cast<double>(end - first) && expected > kClearRise * known &&
+        rise < kAstray * expected && rise < kAstray * line.rise * known)
+      place[range.begin + i] = kOtherLight;
+  }
+}
+
+template LineColour colour_of_line<std::uint8_t>(ImageView8, const LineSet&, const LineRange&, double,
+                                                 ColourWorkspace&);
+template LineColour colour_of_line<std::uint16_t>(ImageView16, const LineSet&, const LineRange&, double,
+                                                  ColourWorkspace&);
+template void place_points<std::uint8_t>(ImageView8, const LineSet&, const LineRange&, double,
+                                         ColourWorkspace&, std::vector<std::uint8_t>&);
+template void place_points<std::uint16_t>(ImageView16, const LineSet&, const LineRange&, double,
+                                          ColourWorkspace&, std::vector<std::uint8_t>&);
+
+}  // namespace lightstripe
