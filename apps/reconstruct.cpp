@@ -71,6 +71,7 @@ void warn_of_gaps(const ReconstructResult& result) {
                     summary.interpolated.count, summary.interpolated.text()));
   if (summary.frames_without_points > 0)
     warn(fmt::format("{} frames show no stripe", summary.frames_without_points));
+  for (const std::string& sentence : result.outside_range) warn(sentence);
   if (summary.rays_missed > 0)
     warn(fmt::format("{} stripe points have no certain laser plane, or do not meet it, and are left out",
                      summary.rays_missed));

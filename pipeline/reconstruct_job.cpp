@@ -16,6 +16,7 @@
 #include "io/output_guard.h"
 #include "io/rig_file.h"
 #include "pipeline/camera_recorders.h"
+#include "pipeline/outside_range.h"
 #include "pipeline/record_frames.h"
 #include "pipeline/recording.h"
 #include "pipeline/run_record.h"
@@ -252,6 +253,7 @@ std::string why_empty(const ReconstructResult& result) {
   if (summary.frames == 0)
     return "none of the frames has a position (nothing is written); number the travel table's frames as the "
            "pictures, or from 0 in their order";
+  if (summary.rays_missed > 0) return why_all_missed(summary, result.outside_range);
   std::string text =
       fmt::format("no stripe was found in any of the {} frames (nothing is written); ", summary.frames);
   constexpr int kDark = 60;
@@ -362,6 +364,7 @@ void finish(const Run& run, ScanOutput& output, ReconstructResult& result) {
   result.skipped = output.tally().skipped;
   result.duplicate_pictures = run.recording.duplicate_pictures();
   result.warnings = run.recording.warnings();
+  result.outside_range = outside_range_texts(result.summary.outside, run.job.rig);
   result.without_picture = run.recording.without_picture();
   result.origin = origin_of(run);
   refuse_unusable_pictures(run.job, result);

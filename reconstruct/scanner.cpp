@@ -141,11 +141,12 @@ void count(const ScannedFrame& frame, ScanCounts& counts) {
 }
 
 /// Counts a frame and hands it on; returns what went wrong with it, if anything.
-std::exception_ptr hand_on(FrameOutcome& outcome, const FrameSink& sink, ScanCounts& counts) {
+std::exception_ptr hand_on(FrameOutcome& outcome, const FrameSink& sink, ScanSummary& summary) {
   if (outcome.error) return outcome.error;
   ScannedFrame& scanned = outcome.scanned;
-  count(scanned, counts);
-  scanned.counts = counts;
+  count(scanned, summary);
+  scanned.counts = summary;
+  for (const OutsideRange& outside : scanned.profile.outside) add_outside_range(outside, summary.outside);
   try {
     sink(scanned);
   } catch (...) {

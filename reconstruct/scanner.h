@@ -55,8 +55,9 @@ struct ScannedFrame {
 
 struct ScanSummary : ScanCounts {
   FrameRanges without_position;
-  FrameRanges interpolated;  ///< their travel lies between two readings
-  bool stopped = false;      ///< ended by ScanInput::stop
+  FrameRanges interpolated;             ///< their travel lies between two readings
+  bool stopped = false;                 ///< ended by ScanInput::stop
+  std::vector<OutsideRange> outside{};  ///< by sensor; of this run alone, without `before`
 };
 
 struct ScanInput {
