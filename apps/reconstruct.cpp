@@ -170,7 +170,8 @@ int run_reconstruct(const ReconstructArguments& arguments) {
   }
   CloudPreview preview;
   const ScanProducts products = products_of(arguments, job);
-  for (const fs::path& output : {fs::path(arguments.preview), products.view, products.height_map, products.mesh})
+  for (const fs::path& output :
+       {fs::path(arguments.preview), products.view, products.height_map, products.mesh})
     if (!output.empty()) job.other_outputs.push_back(output);
   if (!products.height_map.empty())
     job.other_outputs.push_back(fs::path(products.height_map).replace_extension(".png"));
