@@ -379,15 +379,6 @@ void LineFinder<T>::run() {
 
 }  // namespace
 
-ScaleGroup& ScaleGroups::add(const DerivativeKernels& kernels) {
-  if (count == all.size()) all.emplace_back();
-  ScaleGroup& group = all[count++];
-  group.kernels = group.binned_kernels = &kernels;
-  group.level = 0;
-  group.lines.clear();
-  return group;
-}
-
 template <class T>
 void follow_lines_at_own_scale(const OwnScaleSearch<T>& search, const LimitsMaker& limits,
                                KernelCache& kernels, DirectionGuidedWorkspace<T>& following,

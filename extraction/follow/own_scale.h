@@ -29,7 +29,15 @@ struct ScaleGroups {
   std::vector<ScaleGroup> all;
   std::size_t count = 0;
 
-  ScaleGroup& add(const DerivativeKernels& kernels);
+  /// An empty one more.
+  ScaleGroup& add(const DerivativeKernels& kernels) {
+    if (count == all.size()) all.emplace_back();
+    ScaleGroup& group = all[count++];
+    group.kernels = group.binned_kernels = &kernels;
+    group.level = 0;
+    group.lines.clear();
+    return group;
+  }
   std::span<ScaleGroup> used() { return {all.data(), count}; }
 };
 
