@@ -26,6 +26,8 @@ CalibrateJob job_of(const CalibrateArguments& arguments) {
   apply_overrides(job.calibration, arguments.calibration);
   if (!arguments.common.output.empty()) job.rig = arguments.common.output;
   job.camera_folder = arguments.camera_folder;
+  job.overlay_folder = arguments.overlay;
+  job.other_outputs = {arguments.report};
   job.threads = arguments.common.threads;
   return job;
 }

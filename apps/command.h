@@ -27,6 +27,12 @@ using Command = std::function<int()>;
 void say(const CommonOptions& options, const std::string& line);
 /// "warning: ..." on stderr, also when quiet.
 void warn(const std::string& line);
+/// "error: ..." on stderr.
+void say_error(const std::string& line);
+/// A line on stderr that is neither.
+void say_status(const std::string& line);
+/// A result that goes to stdout itself; an Error where it cannot be written.
+void print_result(const std::string& text);
 /// "not usable: ..." on stderr; returns exit code 3.
 int not_usable(const std::string& reason);
 

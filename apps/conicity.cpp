@@ -17,7 +17,6 @@ struct ConicityArguments {
   CommonOptions common;
   ConicityJob job;
   Overrides options;
-  std::string report;
 };
 
 void summarise(const ConicityArguments& arguments, const Conicity& conicity) {
@@ -46,7 +45,8 @@ int run(ConicityArguments arguments) {
   apply_overrides(arguments.job.options, arguments.options);
   const Conicity conicity = run_conicity(arguments.job);
   if (!conicity.usable()) return not_usable(conicity.reason);
-  if (!arguments.report.empty()) write_file(arguments.report, conicity_report_html(arguments.job, conicity));
+  if (!arguments.job.report.empty())
+    write_file(arguments.job.report, conicity_report_html(arguments.job, conicity));
   summarise(arguments, conicity);
   return kExitDone;
 }
@@ -78,7 +78,7 @@ void add_conicity_command(CLI::App& app, Command& run_command) {
   command->add_option("--correlation", job.correlation_mm,
                       "length along a measured profile over which points share their error, mm [0]");
   command->add_option("--contacts", job.contacts, "table of the contact points over the shift (csv)");
-  command->add_option("--report", arguments->report, "report to look at (HTML)");
+  command->add_option("--report", job.report, "report to look at (HTML)");
   add_common_options(*command, arguments->common, "table of tan gamma_e (default: conicity.csv)");
   add_field_options<ConicityOptions>(*command, "", arguments->options);
   command->callback([arguments, &run_command] { run_command = [arguments] { return run(*arguments); }; });

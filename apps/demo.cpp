@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <set>
 
 #include "apps/command.h"
 #include "apps/interrupt.h"
@@ -13,6 +14,8 @@
 #include "extraction/extract_stripes.h"
 #include "io/atomic_file.h"
 #include "io/images.h"
+#include "io/output_guard.h"
+#include "io/own_files.h"
 #include "io/rig_file.h"
 #include "io/session_file.h"
 #include "io/tables.h"
@@ -149,14 +152,44 @@ std::string list_of_files(const fs::path& folder, bool measured) {
                : "");
 }
 
+/// The demo's own files are replaced only where an earlier demo has written them.
+std::set<std::string> results_of(const Scene& scene) {
+  std::set<std::string> files{"rig.yaml",
+                              "rig.yaml.run.yaml",
+                              "calibration.html",
+                              "cloud.ply",
+                              "cloud.ply.run.yaml",
+                              "cloud.partial.ply",
+                              "cloud.html",
+                              "cloud.png",
+                              "profiles.csv",
+                              "profiles.partial.csv",
+                              "map.tif",
+                              "map.png",
+                              "mesh.stl",
+                              "measurements.csv",
+                              "measurements.csv.run.yaml",
+                              "measure.html",
+                              "overview.png"};
+  for (const SceneSensor& sensor : scene.sensors) files.insert("overlay/" + sensor.name + ".png");
+  return files;
+}
+
 int run_demo(const std::string& scene_file, bool wheel, const CommonOptions& common) {
   const fs::path folder = common.output.empty() ? "demo-output" : common.output;
   const Scene scene = !scene_file.empty() ? read_scene(scene_file) : wheel ? wheel_scene() : Scene{};
+  const std::set<std::string> results = results_of(scene);
+  std::vector<fs::path> outputs;
+  for (const std::string& file : results) outputs.push_back(folder / file);
+  guard_outputs({scene_file}, outputs);
+  OwnFiles own(folder, ".lightstripe-demo");
+  own.refuse_foreign(results);
   say(common, fmt::format("1/4 rendering a calibration session and a scan of a {}",
                           scene.turns() ? "turning wheel" : "rail"));
   const SimulationSummary simulated =
-      simulate_with_progress(scene, {common.threads, common.quiet, folder.string()});
+      simulate_with_progress(scene, scene_file, {common.threads, common.quiet, folder.string()});
 
+  own.claim(results);
   say(common, "2/4 calibrating the rig from the board images");
   const CalibrateResult calibration = calibrate_rendered(simulated, folder, common.threads);
   if (!calibration.usable()) return not_usable(calibration.not_usable);
@@ -180,6 +213,7 @@ int run_demo(const std::string& scene_file, bool wheel, const CommonOptions& com
           "\n{} points from {} frames of {} sensors, {:.0f} frames/s with {} threads (PNG decoding included)",
           scanned.summary.points, scanned.summary.frames, rig.sensors.size(),
           static_cast<double>(scanned.summary.frames) / scanned.seconds, thread_count(common.threads)));
+  own.release_missing();
   say(common, list_of_files(folder, !wear.empty()));
   return kExitDone;
 }

@@ -59,7 +59,7 @@ int run_design(DesignArguments arguments) {
   parse_image(arguments.image, arguments.design);
   const std::string text = report_of(arguments.design, design_sensor(arguments.design));
   if (arguments.common.output.empty())
-    fmt::print("{}", text);
+    print_result(text);
   else
     write_file(arguments.common.output, text);
   return kExitDone;

@@ -10,6 +10,7 @@
 #include "apps/self_description.h"
 #include "core/error.h"
 #include "io/atomic_file.h"
+#include "io/output_guard.h"
 #include "io/session_file.h"
 #include "pipeline/conformance.h"
 #include "report/board_drawing.h"
@@ -43,9 +44,12 @@ std::string generated(const GenerateArguments& arguments, const CLI::App& app) {
 }
 
 int run_generate(const GenerateArguments& arguments, const CLI::App& app) {
+  std::error_code none;
+  if (std::filesystem::is_regular_file(arguments.target, none))
+    guard_outputs({arguments.target}, {arguments.common.output});
   const std::string text = generated(arguments, app);
   if (arguments.common.output.empty()) {
-    fmt::print("{}", text);
+    print_result(text);
   } else {
     write_file(arguments.common.output, text);
   }
@@ -58,11 +62,10 @@ void add_generate_command(CLI::App& app, Command& run) {
   auto* command = app.add_subcommand(
       "generate", "a calibration board to print; the man page, or the completion script for bash");
   auto arguments = std::make_shared<GenerateArguments>();
-  command
-      ->add_option("what", arguments->what,
-                   "board, man-page, bash-completion, or conformance (docs/conformance.md)")
-      ->required()
-      ->check(CLI::IsMember({"board", "man-page", "bash-completion", "conformance"}));
+  one_of(command->add_option("what", arguments->what,
+                             "board, man-page, bash-completion, or conformance (docs/conformance.md)"),
+         {"board", "man-page", "bash-completion", "conformance"})
+      ->required();
   command->add_option("--target", arguments->target,
                       "the board: a session file, or its target as text, e.g. '{type: circles, grid: [7, 7], "
                       "pitch: 37.5}' (default: a checkerboard of 11 x 8 inner corners, 10 mm)");

@@ -8,6 +8,9 @@
 
 namespace lightstripe {
 
+/// From now on a signal that ends the process deletes its temporary files first.
+void clean_up_at_signals();
+
 /// One at a time in a process.
 class InterruptWatch {
  public:

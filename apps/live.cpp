@@ -63,7 +63,7 @@ int run_live(LiveArguments arguments) {
       });
   line.clear();
   if (!arguments.quiet)
-    fmt::print(stderr, "{}, 99 % {:.1f} ms\n", status_of(summary), summary.latency.quantile(0.99));
+    say_status(fmt::format("{}, 99 % {:.1f} ms", status_of(summary), summary.latency.quantile(0.99)));
   return summary.whole == 0 ? not_usable("no whole frame arrived; the lines on stdout say why") : kExitDone;
 }
 

@@ -1,16 +1,19 @@
 // SPDX-FileCopyrightText: 2026 The lightstripe authors
 // SPDX-License-Identifier: Apache-2.0
-#include <fmt/format.h>
-
+#include <fcntl.h>
 #include <glog/logging.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <exception>
 #include <opencv2/core/utils/logger.hpp>
 
 #include "apps/command.h"
+#include "apps/interrupt.h"
+#include "apps/self_description.h"
 #include "core/error.h"
 
 namespace {
@@ -25,6 +28,65 @@ constexpr const char* kFirstSteps =
     "  4. Copy configs/scan.yaml, name your scan's pictures in it, and\n"
     "                                             lightstripe reconstruct scan.yaml -o cloud.ply\n"
     "`lightstripe COMMAND --help` tells the options of a command; docs/how-to/ how to take the pictures.";
+
+std::string command_line_help(const CLI::App& app) {
+  const auto parsed = app.get_subcommands();
+  return "`lightstripe " + (parsed.empty() ? std::string() : parsed.front()->get_name() + " ") + "--help`";
+}
+
+/// Levenshtein's distance.
+std::size_t edit_distance(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t corner = row[0];
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t above = row[j];
+      row[j] = std::min({above + 1, row[j - 1] + 1, corner + (a[i - 1] == b[j - 1] ? 0 : 1)});
+      corner = above;
+    }
+  }
+  return row.back();
+}
+
+/// ", did you mean ...?" where a name is near.
+std::string suggestion(const std::string& given, const std::vector<std::string>& names) {
+  constexpr std::size_t kLongest = 64;
+  if (given.size() > kLongest) return "";
+  std::string nearest;
+  std::size_t least = given.size() / 3 + 2;
+  for (const std::string& name : names)
+    if (const std::size_t distance = edit_distance(given, name); distance < least) {
+      least = distance;
+      nearest = name;
+    }
+  return nearest.empty() ? "" : ", did you mean " + nearest + "?";
+}
+
+/// "Could not convert: --threads = abc" -> "--threads: 'abc' is no number".
+std::string in_our_words(const CLI::ParseError& error) {
+  const std::string text = error.what(), head = "Could not convert: ";
+  const std::size_t equals = text.find(" = ");
+  if (!text.starts_with(head) || equals == std::string::npos) return text;
+  const std::string value = text.substr(equals + 3);
+  return text.substr(head.size(), equals - head.size()) + ": '" + value + "' is no number";
+}
+
+int unknown_arguments(const CLI::App& app) {
+  const auto parsed = app.get_subcommands();
+  const auto extras = app.remaining(true);
+  const std::string first = extras.empty() ? "" : extras.front();
+  std::vector<std::string> names;
+  if (!parsed.empty())
+    for (const CLI::Option* option : parsed.front()->get_options())
+      for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  const std::string name = first.substr(0, first.find('='));
+  lightstripe::say_error(
+      first + (first.starts_with("-") ? ": is no option here" : ": is one argument too many") +
+      (first.starts_with("-") ? suggestion(name, names) : "") + "; see " + command_line_help(app));
+  return lightstripe::kExitUsage;
+}
 
 int run(int argc, char** argv) {
   CLI::App app{"lightstripe: calibrate laser-stripe rigs, reconstruct profiles, write point clouds",
@@ -48,16 +110,45 @@ int run(int argc, char** argv) {
   lightstripe::add_view_command(app, command);
   lightstripe::add_design_command(app, command);
   lightstripe::add_generate_command(app, command);
+  lightstripe::name_types(app);
   if (argc < 2) {
-    fmt::print(stderr, "{}", app.help());
+    std::fputs(app.help().c_str(), stderr);
+    return lightstripe::kExitUsage;
+  }
+  std::vector<std::string> names;
+  bool known = false;
+  for (const CLI::App* subcommand : app.get_subcommands({})) {
+    known = known || subcommand->check_name(argv[1]);
+    if (!subcommand->get_group().empty()) names.push_back(subcommand->get_name());
+  }
+  if (argv[1][0] != '-' && !known) {
+    lightstripe::say_error(std::string(argv[1]) + ": is no command" + suggestion(argv[1], names) +
+                           "; lightstripe --help lists them");
     return lightstripe::kExitUsage;
   }
   try {
     app.parse(argc, argv);
+  } catch (const CLI::ExtrasError&) {
+    return unknown_arguments(app);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? lightstripe::kExitDone : lightstripe::kExitUsage;
+    if (error.get_exit_code() == 0) return app.exit(error);
+    lightstripe::say_error(in_our_words(error) + "; see " + command_line_help(app));
+    return lightstripe::kExitUsage;
   }
   return command();
+}
+
+/// A process that was started with closed standard streams would open its results in their place, and write
+/// its messages into them.
+void open_standard_streams() {
+  for (int descriptor = 0; descriptor <= 2; ++descriptor)
+    if (::fcntl(descriptor, F_GETFD) == -1) {
+      const int opened = ::open("/dev/null", descriptor == 0 ? O_RDONLY : O_WRONLY);
+      if (opened >= 0 && opened != descriptor) {
+        ::dup2(opened, descriptor);
+        ::close(opened);
+      }
+    }
 }
 
 }  // namespace
@@ -65,17 +156,20 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
   // OpenCV's own lines on stderr say less than our one error line, and would stand before it.
   cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
+  open_standard_streams();
+  std::signal(SIGPIPE, SIG_IGN);  // messages that nobody reads never cost a result
+  lightstripe::clean_up_at_signals();
   std::signal(SIGXFSZ, SIG_IGN);           // a limit on a file's size is an error of writing like a full disk
   FLAGS_minloglevel = google::GLOG_FATAL;  // Ceres tells of steps that it then takes back
   try {
     return run(argc, argv);
   } catch (const lightstripe::Error& error) {
-    fmt::print(stderr, "error: {}\n", error.what());
+    lightstripe::say_error(error.what());
   } catch (const std::bad_alloc&) {
-    fmt::print(stderr, "error: memory: not enough of it; use fewer --threads or smaller images\n");
+    lightstripe::say_error("memory: not enough of it; use fewer --threads or smaller images");
   } catch (const std::exception& error) {
-    fmt::print(stderr, "error: lightstripe: {}; this is a fault of the program, please report it\n",
-               error.what());
+    lightstripe::say_error(std::string("lightstripe: ") + error.what() +
+                           "; this is a fault of the program, please report it");
   }
   return lightstripe::kExitInputWrong;
 }

@@ -13,6 +13,7 @@
 #include "core/error.h"
 #include "io/atomic_file.h"
 #include "io/images.h"
+#include "io/output_guard.h"
 #include "pipeline/features_job.h"
 #include "pipeline/measurement_table.h"
 #include "report/cloud_deviation.h"
@@ -35,6 +36,11 @@ struct MeasureArguments {
   Overrides rail, wheel, registration, limit;
 };
 
+/// The picture of a frame's section, beside the table.
+fs::path plot_file(const MeasureJob& job, std::int64_t frame) {
+  return fs::path(job.table).replace_extension() += fmt::format("_{:06}.png", frame);
+}
+
 MeasureJob job_of(const MeasureArguments& arguments) {
   MeasureJob job = arguments.job;
   apply_overrides(job.options.rail, arguments.rail);
@@ -44,13 +50,20 @@ MeasureJob job_of(const MeasureArguments& arguments) {
   apply_overrides(job.limits, arguments.limit);
   if (!arguments.common.output.empty()) job.table = arguments.common.output;
   job.threads = arguments.common.threads;
+  job.other_inputs = {arguments.limits_file, arguments.scan};
+  if (!arguments.scan.empty()) {
+    const std::vector<fs::path> pictures = files_of(read_scan(arguments.scan));
+    job.other_inputs.insert(job.other_inputs.end(), pictures.begin(), pictures.end());
+  }
+  job.other_outputs = {arguments.report, arguments.view};
+  for (const std::int64_t frame : arguments.plot) job.other_outputs.push_back(plot_file(job, frame));
   return job;
 }
 
 void write_plots(const MeasureArguments& arguments, const MeasureJob& job, const MeasureResult& result) {
   for (const std::int64_t frame : arguments.plot) {
     const RgbPicture picture = plot_frame(result, frame);
-    const fs::path path = fs::path(job.table).replace_extension() += fmt::format("_{:06}.png", frame);
+    const fs::path path = plot_file(job, frame);
     write_rgb_image(path, picture.pixels, picture.width, picture.height);
     say(arguments.common, "frame " + std::to_string(frame) + " -> " + path.string());
   }
@@ -129,6 +142,7 @@ int run_features(const MeasureArguments& arguments) {
   job.profiles = arguments.job.profiles, job.features = arguments.features;
   if (!arguments.common.output.empty()) job.table = arguments.common.output;
   job.threads = arguments.common.threads;
+  job.other_outputs = {arguments.report};
   const FeaturesResult result = measure_features_job(job);
   if (!job.table.empty()) apply_table_style(job.table, arguments.style);
   if (!arguments.report.empty()) write_file(arguments.report, features_report_html(job, result));
@@ -155,9 +169,9 @@ void add_measure_command(CLI::App& app, Command& run) {
       ->add_option("profiles", arguments->job.profiles,
                    "sections: profiles.csv, or one of .ban .whl .mpt .prr .prw")
       ->required();
-  command
-      ->add_option("--kind", arguments->kind, "rail, wheel, or features (of any object, named in --features)")
-      ->check(CLI::IsMember({"rail", "wheel", "features"}))
+  one_of(command->add_option("--kind", arguments->kind,
+                             "rail, wheel, or features (of any object, named in --features)"),
+         {"rail", "wheel", "features"})
       ->required();
   command->add_option("--features", arguments->features,
                       "with --kind features: file of features and what to measure between them (YAML)");
@@ -167,11 +181,8 @@ void add_measure_command(CLI::App& app, Command& run) {
   command->add_option(
       "--baseline", arguments->job.reference.baseline,
       "an earlier measurement (profiles.csv, .ban, .whl ...) as reference; --nominal guides it");
-  const std::map<std::string, bool> rails{{"one", false}, {"two", true}};
-  command
-      ->add_option("--rails", arguments->job.reference.two_rails,
-                   "one or two: sensors over both rails of a track; measures the gauge between them [one]")
-      ->transform(CLI::CheckedTransformer(rails));
+  add_choice<bool>(*command, "--rails", arguments->job.reference.two_rails, {{"one", false}, {"two", true}},
+                   "one or two: sensors over both rails of a track; measures the gauge between them [one]");
   command->add_option("--nominal-right", arguments->job.reference.nominal_right,
                       "with --rails two: the new rail at -y [as --nominal]");
   command
@@ -190,10 +201,9 @@ void add_measure_command(CLI::App& app, Command& run) {
                       "draws the section of this frame (PNG beside the table); may be repeated");
   command->add_option("--export", arguments->job.export_folder,
                       "writes each registered section there (.ban, .whl or .prr, .prw)");
-  const std::map<std::string, SectionFormat> formats{{"miniprof", SectionFormat::kMiniProf},
-                                                     {"simpack", SectionFormat::kSimpack}};
-  command->add_option("--export-format", arguments->job.export_format, "miniprof or simpack [miniprof]")
-      ->transform(CLI::CheckedTransformer(formats));
+  add_choice<SectionFormat>(*command, "--export-format", arguments->job.export_format,
+                            {{"miniprof", SectionFormat::kMiniProf}, {"simpack", SectionFormat::kSimpack}},
+                            "miniprof or simpack [miniprof]");
   command->add_option("--rig", arguments->job.rig, "rig file, for the diameter's predicted error");
   add_common_options(*command, arguments->common,
                      "table of measurements, .csv or .xlsx (default: measurements.csv)");

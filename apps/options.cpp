@@ -2,9 +2,24 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/options.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 
 namespace lightstripe {
+
+CLI::Option* one_of(CLI::Option* option, const std::vector<std::string>& names) {
+  const std::string list = fmt::format("{}", fmt::join(names, ", "));
+  return option->type_name(fmt::format("{}", fmt::join(names, "|")))
+      ->check(
+          [names, list](const std::string& given) {
+            return std::find(names.begin(), names.end(), given) != names.end()
+                       ? std::string()
+                       : fmt::format("'{}' is none of {}", given, list);
+          },
+          "");
+}
 
 void add_common_options(CLI::App& app, CommonOptions& options, const std::string& output_help) {
   app.add_option("-o,--output", options.output, output_help)->group("General");
@@ -27,6 +42,7 @@ void add_field_options(CLI::App& app, const std::string& prefix, const std::vect
              overrides.push_back({origin, key, value});
            },
            help)
+        ->type_name(field.type.empty() ? "VALUE" : field.type)
         ->group(prefix.empty() ? "Method" : "Over the file's " + prefix.substr(0, prefix.size() - 1));
   }
 }

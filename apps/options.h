@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "apps/command.h"
@@ -15,6 +16,22 @@ namespace lightstripe {
 
 /// --threads, --quiet, -o/--output. `output_help` says what is written and where if it is not given.
 void add_common_options(CLI::App& app, CommonOptions& options, const std::string& output_help);
+
+/// Makes an option take one of these names only; --help, messages and the shell's completion list them.
+CLI::Option* one_of(CLI::Option* option, const std::vector<std::string>& names);
+
+/// An option whose value goes by its name.
+template <class T>
+CLI::Option* add_choice(CLI::App& app, const std::string& flag, T& value,
+                        const std::vector<std::pair<std::string, T>>& choices, const std::string& help) {
+  std::vector<std::string> names;
+  for (const auto& choice : choices) names.push_back(choice.first);
+  const auto take = [&value, choices](const std::string& given) {
+    for (const auto& [name, meant] : choices)
+      if (name == given) value = meant;
+  };
+  return one_of(app.add_option_function<std::string>(flag, take, help), names);
+}
 
 /// An option of a field list as given on the command line, applied after the files were read.
 struct Override {

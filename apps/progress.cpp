@@ -3,8 +3,10 @@
 #include "apps/progress.h"
 
 #include <fmt/format.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <memory>
@@ -14,10 +16,16 @@ namespace {
 
 using std::chrono::steady_clock;
 
+std::size_t terminal_width() {
+  constexpr std::size_t kUsual = 80;
+  winsize size{};
+  return ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 1 ? size.ws_col : kUsual;
+}
+
 class Line {
  public:
   ~Line() {
-    if (drawn_) fmt::print(stderr, "\r\033[K");
+    if (drawn_) std::fputs("\r\033[K", stderr);
   }
 
   void draw(const JobProgress& progress) {
@@ -27,7 +35,10 @@ class Line {
     drawn_ = true;
     last_drawn_ = now;
     const double seconds = std::chrono::duration<double>(now - start_).count();
-    fmt::print(stderr, "\r\033[K{}", progress_text(progress, seconds));
+    std::string text = progress_text(progress, seconds);
+    text.resize(std::min(text.size(), terminal_width() - 1));  // a line that wraps is not drawn over
+    text = "\r\033[K" + text;
+    std::fwrite(text.data(), 1, text.size(), stderr);
     std::fflush(stderr);
   }
 

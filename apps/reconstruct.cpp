@@ -18,6 +18,8 @@
 namespace lightstripe {
 namespace {
 
+namespace fs = std::filesystem;
+
 struct ReconstructArguments {
   CommonOptions common;
   std::string scan, rig, profiles, preview;
@@ -69,6 +71,7 @@ void warn_of_gaps(const ReconstructResult& result) {
                     summary.interpolated.count, summary.interpolated.text()));
   if (summary.frames_without_points > 0)
     warn(fmt::format("{} frames show no stripe", summary.frames_without_points));
+  for (const std::string& sentence : result.outside_range) warn(sentence);
   if (summary.rays_missed > 0)
     warn(fmt::format("{} stripe points have no certain laser plane, or do not meet it, and are left out",
                      summary.rays_missed));
@@ -162,10 +165,16 @@ int run_reconstruct(const ReconstructArguments& arguments) {
   ReconstructJob job = job_of(arguments);
   if (arguments.dry_run) {
     const auto [first, end] = frames_to_reconstruct(job);
-    fmt::print("frames: {}:{}\n", first, end);
+    print_result(fmt::format("frames: {}:{}\n", first, end));
     return kExitDone;
   }
   CloudPreview preview;
+  const ScanProducts products = products_of(arguments, job);
+  for (const fs::path& output :
+       {fs::path(arguments.preview), products.view, products.height_map, products.mesh})
+    if (!output.empty()) job.other_outputs.push_back(output);
+  if (!products.height_map.empty())
+    job.other_outputs.push_back(fs::path(products.height_map).replace_extension(".png"));
   if (!arguments.preview.empty()) draw_preview_of(job, preview, arguments.preview);
   std::optional<GrowingView> growing;
   if (job.follow && !arguments.products.view.empty()) {
@@ -175,7 +184,7 @@ int run_reconstruct(const ReconstructArguments& arguments) {
     show_growth(job, *growing);
   }
   std::vector<std::string> made;
-  make_products_of(job, products_of(arguments, job), made);
+  make_products_of(job, products, made);
   const InterruptWatch interrupt;
   const ReconstructResult result = reconstruct(job, progress_line(arguments.common.quiet), interrupt.token());
   warn_of_skipped(result, job.cloud.string());
@@ -185,6 +194,8 @@ int run_reconstruct(const ReconstructArguments& arguments) {
       fmt::format("{} frames, {} points in {:.2f} s ({:.1f} frames/s) -> {}", result.summary.frames,
                   result.summary.points, result.seconds,
                   static_cast<double>(result.frames_now) / result.seconds, job.cloud.string()));
+  for (const SensorLines& lines : result.lines)
+    if (lines.points > 0) say(arguments.common, describe_lines(lines));
   for (const std::string& line : made) say(arguments.common, line);
   return kExitDone;
 }

@@ -59,8 +59,8 @@ void add_record_command(CLI::App& app, Command& run) {
   add_common_options(*command, arguments->common,
                      "folder for the pictures, or one growing file FILE.tif (required)");
   command->get_option("--output")->required();
-  command->add_option("--format", arguments->format, "pgm (fast) or png (smaller) [pgm]")
-      ->check(CLI::IsMember({"pgm", "png"}));
+  one_of(command->add_option("--format", arguments->format, "pgm (fast) or png (smaller) [pgm]"),
+         {"pgm", "png"});
   add_live_options(*command, arguments->job.max_frames, arguments->job.max_seconds, arguments->job.travel);
   command->callback([arguments, &run] { run = [arguments] { return run_record(*arguments); }; });
 }

@@ -9,7 +9,10 @@
 
 namespace lightstripe {
 
-/// A bash script that completes commands, options and file names of the program `app`.
+/// Types and bounds of all options in plain words, for --help: INTEGER, NUMBER, 1 to 1024.
+void name_types(const CLI::App& app);
+
+/// A bash script that completes commands, options, their values and file names of the program `app`.
 std::string bash_completion(const CLI::App& app);
 
 /// A man page (section 1) in the macros of man(7).

@@ -11,10 +11,17 @@
 #include "apps/options.h"
 #include "apps/progress.h"
 #include "apps/simulate.h"
+#include "io/output_guard.h"
+#include "simulate/session_output.h"
 
 namespace lightstripe {
 
-SimulationSummary simulate_with_progress(const Scene& scene, const CommonOptions& common) {
+SimulationSummary simulate_with_progress(const Scene& scene, const std::string& scene_file,
+                                         const CommonOptions& common) {
+  std::vector<std::filesystem::path> outputs;
+  for (const std::string& file : session_files())
+    outputs.push_back(std::filesystem::path(common.output) / file);
+  guard_outputs({scene_file}, outputs);
   const JobThreads threads(common.threads);
   const ProgressCallback draw = progress_line(common.quiet);
   return simulate_scene(scene, common.output, common.threads, [&](int done, int total) {
@@ -32,10 +39,11 @@ struct SimulateArguments {
 
 int run_simulate(const SimulateArguments& arguments) {
   if (arguments.print_scene) {
-    fmt::print("{}", dump_yaml(arguments.scene.empty() ? Scene{} : read_scene(arguments.scene), true));
+    print_result(dump_yaml(arguments.scene.empty() ? Scene{} : read_scene(arguments.scene), true));
     return kExitDone;
   }
-  const SimulationSummary summary = simulate_with_progress(read_scene(arguments.scene), arguments.common);
+  const SimulationSummary summary =
+      simulate_with_progress(read_scene(arguments.scene), arguments.scene, arguments.common);
   say(arguments.common, fmt::format("{} images; session {}, scan {}, truth {}", summary.images,
                                     summary.session.string(), summary.scan.string(), summary.truth.string()));
   return kExitDone;

@@ -8,7 +8,8 @@
 
 namespace lightstripe {
 
-/// Renders into common.output.
-SimulationSummary simulate_with_progress(const Scene& scene, const CommonOptions& common);
+/// Renders into common.output. `scene_file`, where the scene was read, must not be one of the files there.
+SimulationSummary simulate_with_progress(const Scene& scene, const std::string& scene_file,
+                                         const CommonOptions& common);
 
 }  // namespace lightstripe

@@ -10,6 +10,7 @@
 #include "apps/command.h"
 #include "apps/options.h"
 #include "io/atomic_file.h"
+#include "io/output_guard.h"
 #include "io/rig_file.h"
 #include "io/session_file.h"
 #include "pipeline/measure_input.h"
@@ -41,6 +42,13 @@ int run_view(const ViewArguments& arguments) {
   const std::string output = arguments.common.output.empty()
                                  ? fs::path(arguments.cloud).replace_extension(".html").string()
                                  : arguments.common.output;
+  std::vector<fs::path> inputs{arguments.cloud, arguments.rig, arguments.scan, arguments.nominal};
+  if (!arguments.scan.empty()) {
+    const std::vector<fs::path> pictures = files_of(read_scan(arguments.scan));
+    inputs.insert(inputs.end(), pictures.begin(), pictures.end());
+  }
+  guard_outputs(inputs, {output});
+  refuse_special_file(arguments.cloud);
   const auto start = std::chrono::steady_clock::now();
   const std::optional<Rig> rig = rig_of(arguments);
   std::optional<ReferenceShape> reference;
@@ -78,9 +86,9 @@ void add_view_command(CLI::App& app, Command& run) {
                       "rig file (default: the scan's): names of the sensors, rotary axis");
   command->add_option("--nominal", arguments->nominal,
                       "outline (name or file): the points are also coloured by their deviation from it");
-  command->add_option("--kind", arguments->kind, "what the outline is of: rail or wheel [rail]")
-      ->transform(CLI::CheckedTransformer(
-          std::map<std::string, ObjectKind>{{"rail", ObjectKind::kRail}, {"wheel", ObjectKind::kWheel}}));
+  add_choice<ObjectKind>(*command, "--kind", arguments->kind,
+                         {{"rail", ObjectKind::kRail}, {"wheel", ObjectKind::kWheel}},
+                         "what the outline is of: rail or wheel [rail]");
   command->add_option("--max-points", arguments->max_points, "more than these are thinned evenly [1200000]")
       ->check(CLI::Range(std::int64_t{1}, std::int64_t{20'000'000}));
   command->callback([arguments, &run] { run = [arguments] { return run_view(*arguments); }; });

@@ -23,7 +23,9 @@ struct CalibrateJob {
   CalibrationOptions calibration;          ///< in effect: the session's own are merged
   std::filesystem::path rig = "rig.yaml";  ///< is written if the calibration is usable; empty: not written
   std::filesystem::path camera_folder;  ///< for the cameras as OpenCV, ROS and mrcal read them; empty: none
-  int threads = 0;                      ///< 0 = all cores
+  std::vector<std::filesystem::path> other_outputs;  ///< what else is written: must not be an input either
+  std::filesystem::path overlay_folder;              ///< where the pictures' overlays will be; empty: none
+  int threads = 0;                                   ///< 0 = all cores
 };
 
 /// The job as the session file describes it; what else is wanted is set in it afterwards.

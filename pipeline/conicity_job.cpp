@@ -17,6 +17,7 @@
 #include "io/csv_reader.h"
 #include "io/nominal_outlines.h"
 #include "io/number_text.h"
+#include "io/output_guard.h"
 #include "measure/profile_formats.h"
 #include "pipeline/measure_input.h"
 #include "pipeline/run_record.h"
@@ -46,6 +47,7 @@ std::vector<Vector2d> read_csv_points(const std::string& path) {
 }
 
 RecordedProfile read_recorded(const std::string& path, ProfileFormat format, ObjectKind kind) {
+  refuse_special_file(path);
   std::ifstream in(path, std::ios::binary);
   if (!in) throw Error(path, "cannot be read", "check the name");
   RecordedProfile profile =
@@ -169,11 +171,8 @@ void append_optional(std::string& out, const std::optional<double>& value, int d
 void check_job(const ConicityJob& job) {
   if (!(job.options.from_mm > 0 && job.options.from_mm <= job.options.to_mm))
     throw Error("--from, --to", "are no range of amplitudes", "give 0 < from <= to");
-  std::error_code none;
-  for (const std::string& output : {job.output, job.contacts})
-    for (const std::string& input : {job.wheel, job.wheel_right, job.rail, job.rail_right})
-      if (std::filesystem::equivalent(output, input, none))
-        throw Error(output, "is an input", "name another file to write to");
+  guard_outputs({job.wheel, job.wheel_right, job.rail, job.rail_right},
+                {job.output, job.contacts, job.report});
 }
 
 }  // namespace

@@ -21,6 +21,7 @@ struct ConicityJob {
   double correlation_mm = 0;  ///< along a measured profile, over which points share their error
   ConicityOptions options;
   std::string output;    ///< conicity.csv
+  std::string report;    ///< written by the caller: must not be an input either; empty: none
   std::string contacts;  ///< table of the contact points over the shift; empty: none
 };
 

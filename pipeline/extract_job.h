@@ -28,9 +28,11 @@ struct SeenImage {
 struct ExtractJob {
   std::vector<std::string> images;  ///< files
   Channel channel = Channel::kAuto;
+  std::string background;  ///< file or pattern of pictures with the laser off; empty: none
   ExtractionOptions extraction;
   std::filesystem::path table = "stripes.csv";
-  int threads = 0;  ///< 0 = all cores
+  std::vector<std::filesystem::path> other_outputs;  ///< what else is written: must not be an input either
+  int threads = 0;                                   ///< 0 = all cores
   /// Told of each picture (its index in `images`) on the thread that has just looked at it.
   std::function<void(std::size_t index, const SeenImage& seen)> on_image{};
   /// Told of each picture in order, from one thread, when its rows are in the table.
@@ -39,6 +41,7 @@ struct ExtractJob {
 
 struct ExtractResult {
   std::size_t images = 0, lines = 0, points = 0;
+  std::vector<std::string> warnings;          ///< of backgrounds that do not quite fit
   Impression impression = Impression::kNone;  ///< of the first picture without a line
   bool usable() const { return points > 0; }
 };

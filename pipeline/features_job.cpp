@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "io/atomic_file.h"
 #include "io/number_text.h"
+#include "io/output_guard.h"
 #include "io/tables.h"
 #include "io/yaml_binding.h"
 #include "parallel/parallel.h"
@@ -29,6 +30,11 @@ std::string missing_of(const MeasuredFeatures& row, const FeatureFile& file) {
     if (!row.quantities[i].value)
       out += (out.empty() ? "" : " | ") + file.measurements[i].name + ": " + row.quantities[i].reason;
   return out;
+}
+
+std::filesystem::path along_file(std::filesystem::path table) {
+  table.replace_extension();
+  return table += "_along.csv";
 }
 
 std::string along_table(const FeaturesResult& result) {
@@ -62,10 +68,9 @@ std::string features_table(const FeaturesResult& result) {
 
 FeaturesResult measure_features_job(const FeaturesJob& job) {
   const JobThreads threads(job.threads);
-  std::error_code none;
-  for (const std::filesystem::path& input : {job.profiles, job.features})
-    if (std::filesystem::equivalent(job.table, input, none))
-      throw Error(job.table.string(), "is an input", "name another file to write to");
+  std::vector<std::filesystem::path> outputs = job.other_outputs;
+  outputs.insert(outputs.end(), {job.table, along_file(job.table)});
+  guard_outputs({job.profiles, job.features}, outputs);
   FeaturesResult result;
   read_yaml(job.features, result.file);
   result.file.check(job.features.string());
@@ -82,12 +87,7 @@ FeaturesResult measure_features_job(const FeaturesJob& job) {
                                ? 1
                                : 0;
   write_file(job.table, features_table(result));
-  if (!result.along.empty()) {
-    std::filesystem::path along = job.table;
-    along.replace_extension();
-    along += "_along.csv";
-    write_file(along, along_table(result));
-  }
+  if (!result.along.empty()) write_file(along_file(job.table), along_table(result));
   return result;
 }
 

@@ -14,7 +14,8 @@ namespace lightstripe {
 struct FeaturesJob {
   std::filesystem::path profiles, features;
   std::filesystem::path table = "measurements.csv";
-  int threads = 0;  ///< 0: all cores
+  std::vector<std::filesystem::path> other_outputs;  ///< what else is written: must not be an input either
+  int threads = 0;                                   ///< 0: all cores
 };
 
 struct FeaturesResult {

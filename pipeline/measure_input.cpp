@@ -10,6 +10,7 @@
 
 #include "core/error.h"
 #include "core/robust.h"
+#include "io/atomic_file.h"
 #include "io/nominal_outlines.h"
 #include "io/tables.h"
 #include "measure/profile_formats.h"
@@ -19,6 +20,7 @@ namespace lightstripe {
 namespace {
 
 RecordedProfile read_recorded(const std::string& path, ProfileFormat format, ObjectKind kind) {
+  refuse_special_file(path);
   std::ifstream in(path, std::ios::binary);
   if (!in) throw Error(path, "cannot be read", "check the name");
   RecordedProfile profile =
@@ -56,6 +58,7 @@ MeasureInput input_of(const RecordedProfile& recorded, const std::string& path) 
     profile.points.push_back(point);
   }
   input.profiles.push_back(std::move(profile));
+  input.further_profiles = recorded.further_profiles;
   if (recorded.kind == ObjectKind::kRail) return input;
   input.prior.pose = SectionPose{};
   input.wheel.back_is_given = true;

@@ -13,7 +13,8 @@
 namespace lightstripe {
 
 struct MeasureInput {
-  std::string file;  ///< where it was read
+  int further_profiles = 0;  ///< of an .mpt: behind the first, not read
+  std::string file;          ///< where it was read
   ObjectKind kind = ObjectKind::kRail;
   std::vector<Profile> profiles;
   SectionPrior prior;

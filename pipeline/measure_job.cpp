@@ -10,6 +10,7 @@
 
 #include "core/error.h"
 #include "io/atomic_file.h"
+#include "io/output_guard.h"
 #include "io/rig_file.h"
 #include "io/yaml_binding.h"
 #include "measure/measure_track.h"
@@ -91,12 +92,34 @@ std::string why_not_usable(const MeasureJob& job, const MeasureResult& result) {
                            result.rows.size());
 }
 
+void guard(const MeasureJob& job) {
+  std::vector<fs::path> inputs = job.other_inputs, outputs = job.other_outputs;
+  inputs.insert(inputs.end(), {job.profiles, job.rig, job.reference.nominal, job.reference.baseline,
+                               job.reference.nominal_right});
+  if (!job.table.empty()) outputs.insert(outputs.end(), {job.table, job.table.string() + ".run.yaml"});
+  guard_outputs(inputs, outputs);
+  if (job.export_folder.empty()) return;
+  for (const fs::path& input : inputs) {  // sections are named by their frames
+    std::error_code error;
+    if (!input.empty() &&
+        fs::equivalent(input.parent_path().empty() ? "." : input.parent_path(), job.export_folder, error) &&
+        input.filename().string().starts_with("section_"))
+      throw Error(
+          job.export_folder.string(),
+          "holds " + input.string() + ", which is an input, and sections of that name would be written there",
+          "name another folder");
+  }
+}
+
 MeasureResult prepare(const MeasureJob& job) {
   check_required(job);
   std::vector<std::string> warnings;
   MeasureInput input = read_measure_input(job.profiles.string(), job.kind);
   if (!job.rig.empty() && job.kind == ObjectKind::kWheel)
     input.wheel.axis_sigma_mm = axis_sigma(job.rig, warnings);
+  if (input.further_profiles > 0)
+    warnings.push_back(fmt::format("{} holds {} profiles: the first one is measured", job.profiles.string(),
+                                   input.further_profiles + 1));
   MeasureReferences references(job.reference, input, job.options, job.rig);
   if (references.identified()) warn_of_likeness(*references.identified(), warnings);
   MeasureResult result{std::move(input), std::move(references), {}};
@@ -107,20 +130,22 @@ MeasureResult prepare(const MeasureJob& job) {
 }
 
 void write_results(const MeasureJob& job, const MeasureResult& result) {
+  if (!job.table.empty()) {
+    if (job.table.extension() == ".xlsx")
+      write_measurement_workbook(job.table, result.rows, job.kind, result.extra_columns, result.verdicts,
+                                 job.limits);
+    else
+      write_file(job.table, measurement_table(result.rows, job.kind, result.extra_columns, result.verdicts));
+    write_run_record(job.table, "measure", {job.profiles}, effective_options(job));
+  }
   if (!job.export_folder.empty()) export_sections(job, result);
-  if (job.table.empty()) return;
-  if (job.table.extension() == ".xlsx")
-    write_measurement_workbook(job.table, result.rows, job.kind, result.extra_columns, result.verdicts,
-                               job.limits);
-  else
-    write_file(job.table, measurement_table(result.rows, job.kind, result.extra_columns, result.verdicts));
-  write_run_record(job.table, "measure", {job.profiles}, effective_options(job));
 }
 
 }  // namespace
 
 MeasureResult measure(const MeasureJob& job, const ProgressCallback& progress, const std::stop_token& stop) {
   const JobThreads threads(job.threads);
+  guard(job);
   MeasureResult result = prepare(job);
   const std::vector<Profile>& profiles = result.input.profiles;
   StepCounter steps("measuring", "frames", static_cast<std::int64_t>(profiles.size()), progress);

@@ -29,7 +29,8 @@ struct MeasureJob {
   std::filesystem::path table = "measurements.csv";  ///< .csv or .xlsx; empty: not written
   std::filesystem::path export_folder;               ///< for the registered sections; empty: not written
   SectionFormat export_format = SectionFormat::kMiniProf;
-  int threads = 0;  ///< 0 = all cores
+  std::vector<std::filesystem::path> other_inputs, other_outputs;  ///< what else is read and written
+  int threads = 0;                                                 ///< 0 = all cores
 };
 
 struct MeasureResult {

@@ -10,7 +10,9 @@
 #include <string>
 
 #include "core/error.h"
+#include "io/atomic_file.h"
 #include "io/number_text.h"
+#include "io/output_guard.h"
 #include "io/resumable_file.h"
 #include "io/tables.h"
 #include "pipeline/run_record.h"
@@ -105,6 +107,7 @@ std::vector<Part> read_parts(const MergeJob& job, bool table, CloudFormat format
     if (file.extension() != job.output.extension())
       throw Error(file.string(), "has another format than " + job.output.string(),
                   "give parts and result the same extension");
+    refuse_special_file(file);
     parts.push_back(table ? profiles_part(file) : cloud_part(file, format));
   }
   return parts;
@@ -123,6 +126,9 @@ MergeResult merge(const MergeJob& job) {
   if (result.num_points > kMaxCloudPoints)
     throw Error(job.output.string(), fmt::format("the cloud would exceed {} points", kMaxCloudPoints),
                 "merge fewer parts");
+  guard_outputs(job.parts,
+                {job.output, ResumableFile::partial_of(job.output), job.output.string() + ".run.yaml"});
+  const TemporaryName half(ResumableFile::partial_of(job.output));  // unlike a scan's, it cannot be resumed
   ResumableFile out(job.output, table ? std::string(kProfilesHeader)
                                       : cloud_header(format, result.num_points, parts.front().origin));
   try {

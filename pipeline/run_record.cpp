@@ -24,6 +24,7 @@ struct InputFacts {
 };
 
 InputFacts facts_of(const std::filesystem::path& path) {
+  refuse_special_file(path);
   std::ifstream file(path, std::ios::binary);
   if (!file) throw Error(path.string(), "cannot be read", "check the path");
   InputFacts facts;

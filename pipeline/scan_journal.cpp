@@ -9,12 +9,13 @@
 
 #include "core/error.h"
 #include "io/atomic_file.h"
+#include "io/crc32.h"
 #include "io/number_text.h"
 
 namespace lightstripe {
 namespace {
 
-constexpr std::string_view kHead = "lightstripe-journal/1 ";
+constexpr std::string_view kHead = "lightstripe-journal/2 ";
 constexpr std::size_t kEntryNumbers = 11;
 
 /// Numbers between blanks; nothing where one is none or their number is another.
@@ -60,7 +61,24 @@ bool take_entry(std::string_view text, const std::vector<NamedSkip>& skips, Jour
   return true;
 }
 
+/// The line without its check sum, which has to be that of all lines up to it.
+std::string_view unsealed(std::string_view line, std::uint32_t& chain, const std::filesystem::path& path) {
+  constexpr std::size_t kSeal = 9;  // blank and 8 digits
+  const std::string_view text = line.substr(0, line.size() - std::min(kSeal, line.size()));
+  chain = crc32(text, chain);
+  if (line.substr(text.size()) != fmt::format(" {:08x}", chain))
+    throw Error(path.string(), "is no journal of a reconstruction, or was changed",
+                "run again without --resume");
+  return text;
+}
+
 }  // namespace
+
+std::string sealed_line(const std::string& line, std::uint32_t& chain) {
+  const std::string text = line.substr(0, line.find('\n'));
+  chain = crc32(text, chain);
+  return fmt::format("{} {:08x}\n", text, chain);
+}
 
 std::string journal_head(const std::string& fingerprint) { return fmt::format("{}{}\n", kHead, fingerprint); }
 
@@ -83,8 +101,9 @@ std::optional<JournalState> read_journal(const std::filesystem::path& path) {
   const std::string text = read_file(path);
   JournalState state;
   std::vector<NamedSkip> skips;
+  std::uint32_t chain = 0;
   for (std::size_t at = 0, end; (end = text.find('\n', at)) != std::string::npos; at = end + 1) {
-    const std::string_view line = std::string_view(text).substr(at, end - at);
+    const std::string_view line = unsealed(std::string_view(text).substr(at, end - at), chain, path);
     if (at == 0 && line.substr(0, kHead.size()) == kHead)
       state.fingerprint = line.substr(kHead.size());
     else if (line == "complete")
@@ -93,7 +112,9 @@ std::optional<JournalState> read_journal(const std::filesystem::path& path) {
       skips.push_back(std::move(*skip));
     else if (line.substr(0, 5) != "done " || !take_entry(line.substr(5), skips, state))
       throw Error(path.string(), "is no journal of a reconstruction", "run again without --resume");
-    if (line.substr(0, 5) == "done " || state.complete) state.bytes = static_cast<std::int64_t>(end + 1);
+    if (line.substr(0, 5) != "done " && !state.complete) continue;
+    state.bytes = static_cast<std::int64_t>(end + 1);
+    state.chain = chain;
   }
   if (state.fingerprint.empty()) return std::nullopt;  // killed before its first line
   return state;

@@ -34,7 +34,8 @@ struct JournalState {
   bool complete = false;  ///< nothing is left but to rename
   ScanTally tally;
   ResumableFile::Mark cloud, profiles;
-  std::int64_t bytes = 0;  ///< of the journal up to and with its last entry
+  std::uint32_t chain = 0;  ///< check sum of its lines up to there
+  std::int64_t bytes = 0;   ///< of the journal up to and with its last entry
 };
 
 std::string journal_head(const std::string& fingerprint);
@@ -42,9 +43,11 @@ std::string journal_skip(const NamedSkip& skip);
 std::string journal_entry(const ScanTally& tally, const ResumableFile::Mark& cloud,
                           const ResumableFile::Mark& profiles);
 inline constexpr std::string_view kJournalComplete = "complete\n";
+/// A line as it stands in the journal: with the check sum of all lines up to it, which `chain` goes on with.
+std::string sealed_line(const std::string& line, std::uint32_t& chain);
 
 /// The state of the last whole entry; a last line that was cut off does not count. Nothing where there is no
-/// journal; an Error where the file is none.
+/// journal; an Error where the file is none, or a line is not the one that was written.
 std::optional<JournalState> read_journal(const std::filesystem::path& path);
 
 }  // namespace lightstripe

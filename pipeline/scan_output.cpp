@@ -36,6 +36,15 @@ void put(int journal, const fs::path& path, std::string_view text) {
     cannot_write(path, errno);
 }
 
+/// The header counts the points that come behind it: it cannot be corrected in what has gone through a pipe.
+void refuse_pipe(const fs::path& cloud, CloudFormat format) {
+  std::error_code error;
+  const fs::file_status status = fs::status(cloud, error);
+  if (format != CloudFormat::kXyz && (fs::is_fifo(status) || fs::is_socket(status)))
+    throw Error(cloud.string(), "is a pipe, and the cloud's header counts points that come behind it",
+                "name a file, or write .xyz");
+}
+
 }  // namespace
 
 ScanOutput::ScanOutput(const ScanOutputOptions& options)
@@ -46,6 +55,11 @@ ScanOutput::ScanOutput(const ScanOutputOptions& options)
   try {
     if (!options_.resume || !go_on()) begin();
   } catch (...) {
+    if (!has_entry_) {  // nothing that a later run could go on from
+      if (cloud_) cloud_->discard();
+      if (profiles_) profiles_->discard();
+      forget_journal();
+    }
     ::close(journal_);
     throw;
   }
@@ -63,9 +77,11 @@ fs::path ScanOutput::journal_path() const {
 void ScanOutput::begin() {
   tally_.next_frame = options_.first_frame;
   if (::ftruncate(journal_, 0) != 0) cannot_write(journal_path(), errno);
+  refuse_pipe(options_.cloud, format_);
+  chain_ = 0;
   cloud_.emplace(options_.cloud, cloud_header(format_, 0, options_.origin));
   if (!options_.profiles.empty()) profiles_.emplace(options_.profiles, kProfilesHeader);
-  put(journal_, journal_path(), journal_head(options_.fingerprint));
+  put_line(journal_head(options_.fingerprint));
 }
 
 bool ScanOutput::go_on() {
@@ -78,6 +94,7 @@ bool ScanOutput::go_on() {
   if (::ftruncate(journal_, state->bytes) != 0)  // what was said of frames that are done again now
     cannot_write(journal_path(), errno);
   tally_ = state->tally;
+  chain_ = state->chain;
   has_entry_ = true;
   was_complete_ = state->complete;
   if (was_complete_) {
@@ -112,16 +129,19 @@ void ScanOutput::append(const ScannedFrame& frame) {
   for (const SkippedPicture& picture : frame.skipped) {
     if (tally_.skipped.size() == ScanTally::kMaxNamed) break;
     tally_.skipped.push_back({frame.profile.frame, picture});
-    put(journal_, journal_path(), journal_skip(tally_.skipped.back()));
+    put_line(journal_skip(tally_.skipped.back()));
   }
   tally_.next_frame = frame.profile.frame + 1;
   tally_.counts = frame.counts;
   if (steady_clock::now() - last_entry_ >= options_.checkpoint) write_entry();
 }
 
+void ScanOutput::put_line(const std::string& line) {
+  put(journal_, journal_path(), sealed_line(line, chain_));
+}
+
 void ScanOutput::write_entry() {
-  put(journal_, journal_path(),
-      journal_entry(tally_, cloud_->mark(), profiles_ ? profiles_->mark() : ResumableFile::Mark{}));
+  put_line(journal_entry(tally_, cloud_->mark(), profiles_ ? profiles_->mark() : ResumableFile::Mark{}));
   has_entry_ = true;
   last_entry_ = steady_clock::now();
 }
@@ -137,7 +157,7 @@ void ScanOutput::commit() {
   if (was_complete_) return;
   cloud_->replace_head(cloud_header(format_, tally_.counts.points, options_.origin));
   write_entry();
-  put(journal_, journal_path(), kJournalComplete);
+  put_line(std::string(kJournalComplete));
   cloud_->commit();
   if (profiles_) profiles_->commit();
 }

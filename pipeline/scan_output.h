@@ -61,6 +61,7 @@ class ScanOutput {
   bool go_on();
   void rename_what_is_left();
   void write_entry();
+  void put_line(const std::string& line);
   std::filesystem::path journal_path() const;
 
   ScanOutputOptions options_;
@@ -68,7 +69,8 @@ class ScanOutput {
   ScanTally tally_;
   std::optional<ResumableFile> cloud_, profiles_;
   int journal_ = -1;
-  bool has_entry_ = false;  ///< the journal holds more than its first line
+  std::uint32_t chain_ = 0;  ///< check sum of the journal's lines so far
+  bool has_entry_ = false;   ///< the journal holds more than its first line
   bool over_ = false;
   bool was_complete_ = false;
   std::chrono::steady_clock::time_point last_entry_;

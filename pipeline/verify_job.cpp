@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "io/atomic_file.h"
+#include "io/output_guard.h"
 #include "io/rig_file.h"
 #include "pipeline/run_record.h"
 
@@ -73,6 +74,9 @@ VerifyJob read_verify_job(const std::filesystem::path& session_file, const std::
 }
 
 VerifyResult verify(const VerifyJob& job, const ProgressCallback& progress, const std::stop_token& stop) {
+  std::vector<std::filesystem::path> inputs = files_of(job.session);
+  inputs.insert(inputs.end(), {job.session_file, job.rig_file});
+  if (!job.table.empty()) guard_outputs(inputs, {job.table, job.table.string() + ".run.yaml"});
   const JobThreads threads(job.threads);
   VerifyResult result;
   result.seen = observe_session(job.session, job.extraction, progress, stop);

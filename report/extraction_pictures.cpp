@@ -34,12 +34,16 @@ void write_overlay(const fs::path& file, const fs::path& image, const Extraction
   write_rgb_image(file, picture.pixels, picture.width, picture.height);
 }
 
-void write_histogram(const fs::path& overlay, const GreyImage& image, const ExtractionResult& result) {
+fs::path histogram_file(const fs::path& overlay) {
   fs::path picture = overlay;
-  picture.replace_filename(overlay.stem().string() + "_histogram.png");
+  return picture.replace_filename(overlay.stem().string() + "_histogram.png");
+}
+
+void write_histogram(const fs::path& overlay, const GreyImage& image, const ExtractionResult& result) {
   const Histogram histogram =
       std::visit([](const auto& pixels) { return compute_histogram(pixels.view()); }, image);
-  write_rgb_image(picture, draw_histogram(histogram, result), kHistogramPlotWidth, kHistogramPlotHeight);
+  write_rgb_image(histogram_file(overlay), draw_histogram(histogram, result), kHistogramPlotWidth,
+                  kHistogramPlotHeight);
 }
 
 }  // namespace lightstripe

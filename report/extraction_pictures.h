@@ -21,6 +21,9 @@ std::vector<std::filesystem::path> overlay_files(const std::vector<std::string>&
 void write_overlay(const std::filesystem::path& file, const std::filesystem::path& image,
                    const ExtractionResult& result);
 
+/// The histogram's file beside the overlay.
+std::filesystem::path histogram_file(const std::filesystem::path& overlay);
+
 /// Writes the image's histogram with the thresholds beside the overlay, as <overlay>_histogram.png.
 void write_histogram(const std::filesystem::path& overlay, const GreyImage& image,
                      const ExtractionResult& result);

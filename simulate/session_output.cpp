@@ -4,12 +4,12 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <iterator>
 #include <set>
 
 #include "core/error.h"
 #include "io/atomic_file.h"
+#include "io/own_files.h"
 #include "io/rig_file.h"
 #include "io/session_file.h"
 #include "io/yaml_binding.h"
@@ -21,12 +21,6 @@ namespace lightstripe {
 namespace {
 
 namespace fs = std::filesystem;
-
-bool is_numbered_png(const fs::path& file) {
-  const std::string stem = file.stem().string();
-  return file.extension() == ".png" && !stem.empty() &&
-         std::all_of(stem.begin(), stem.end(), [](char c) { return c >= '0' && c <= '9'; });
-}
 
 Session session_of(const Scene& scene, const ImagePlan& plan) {
   Session session;
@@ -97,25 +91,51 @@ std::vector<NamedPose> true_poses(const ImagePlan& plan, const Rigid3& rig_from_
   return poses;
 }
 
+constexpr const char* kMarkerFile = ".lightstripe-simulation";
+
+/// Pictures of the user that the session's patterns would catch.
+void refuse_foreign_pictures(const fs::path& output_folder, const fs::path& folder, const OwnFiles& own) {
+  std::error_code error;
+  if (!fs::is_directory(folder, error)) return;
+  std::set<std::string> pictures;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error))
+    if (entry.path().extension() == ".png" && entry.path().filename().string().front() != '.')
+      pictures.insert(entry.path().lexically_relative(output_folder).generic_string());
+  own.refuse_foreign(pictures);
+}
+
 }  // namespace
 
+std::vector<std::string> session_files() {
+  return {"calibration.yaml", "scan.yaml",          "calib/travel.csv", "scan/travel.csv",
+          "scan/poses.csv",   "truth/stripes.csv",  "truth/rig.yaml",   "truth/scene.yaml",
+          "truth/poses.csv",  "truth/sections.csv", "truth/wear.csv",   "truth/README.md"};
+}
+
 void make_folders(const ImagePlan& plan, const fs::path& output_folder) {
-  std::set<fs::path> folders, written;
+  const std::vector<std::string> texts = session_files();
+  std::set<std::string> planned(texts.begin(), texts.end());
+  std::set<fs::path> folders;
   for (const PlannedImage& image : plan.images) {
-    written.insert(output_folder / image.file);
+    planned.insert(image.file);
     folders.insert((output_folder / image.file).parent_path());
   }
+  OwnFiles own(output_folder, kMarkerFile);
+  own.refuse_foreign(planned);
+  for (const fs::path& folder : folders) refuse_foreign_pictures(output_folder, folder, own);
   for (const fs::path& folder : folders) {
     std::error_code failure;
     fs::create_directories(folder, failure);
     if (failure)
       throw Error(folder.string(), "cannot be made: " + failure.message(), "choose another output folder");
-    std::vector<fs::path> stale;
-    for (const fs::directory_entry& entry : fs::directory_iterator(folder))
-      if (is_numbered_png(entry.path()) && written.count(entry.path()) == 0) stale.push_back(entry.path());
-    for (const fs::path& file : stale) fs::remove(file, failure);
   }
+  const std::set<std::string> earlier = own.files();
+  for (const std::string& file : earlier)
+    if (planned.count(file) == 0) own.remove(file);
+  own.claim(planned);
 }
+
+void close_folders(const fs::path& output_folder) { OwnFiles(output_folder, kMarkerFile).release_missing(); }
 
 void write_truth(const fs::path& folder, const Scene& scene, const ImagePlan& plan, const Rig& rig,
                  const std::vector<std::string>& stripes) {

@@ -13,10 +13,16 @@
 
 namespace lightstripe {
 
-/// Makes the images' folders and removes from them pictures of the simulator's names (digits.png) that this
-/// plan does not write: an earlier, longer run would otherwise leave frames that the session's patterns
-/// catch.
+/// What a simulation may write besides its pictures, relative to its folder.
+std::vector<std::string> session_files();
+
+/// Makes the images' folders and removes what an earlier, longer run has written, which the session's
+/// patterns would catch. Only what the folder's marker file (.lightstripe-simulation) names is replaced or
+/// deleted: an Error where a file or a picture of somebody else lies there, before anything is touched.
 void make_folders(const ImagePlan& plan, const std::filesystem::path& output_folder);
+
+/// Behind the last file, or where the disk was full: the marker names what is there.
+void close_folders(const std::filesystem::path& output_folder);
 
 /// The folder truth/. `stripes`: the rows of each image.
 void write_truth(const std::filesystem::path& folder, const Scene& scene, const ImagePlan& plan,

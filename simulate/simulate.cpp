@@ -4,6 +4,7 @@
 
 #include <mutex>
 
+#include "core/error.h"
 #include "io/images.h"
 #include "io/rig_file.h"
 #include "parallel/parallel.h"
@@ -102,6 +103,17 @@ Studio prepare(const Scene& scene, const ImagePlan& plan, const Rig& rig, int th
   return studio;
 }
 
+/// However the simulation ends.
+struct Closing {
+  const std::filesystem::path& folder;
+  ~Closing() {
+    try {
+      close_folders(folder);
+    } catch (const Error&) {  // a full disk: the marker names more than there is
+    }
+  }
+};
+
 }  // namespace
 
 SimulationSummary simulate_scene(const Scene& scene, const std::filesystem::path& output_folder, int threads,
@@ -111,6 +123,7 @@ SimulationSummary simulate_scene(const Scene& scene, const std::filesystem::path
   const Rig rig = true_rig(scene, plan.sensors);
   const Studio studio = prepare(scene, plan, rig, threads);
   make_folders(plan, output_folder);
+  const Closing closing{output_folder};
   std::vector<std::string> stripes(plan.images.size());
   std::mutex reporting;
   int done = 0;

@@ -5,8 +5,8 @@
 #include <Eigen/Geometry>
 #include <Eigen/QR>
 #include <cmath>
-#include <opencv2/calib3d.hpp>
 
+#include "calib/board/board_homography.h"
 #include "calib/observations.h"
 
 namespace lightstripe {
@@ -65,7 +65,7 @@ Eigen::Matrix2d BoardMap::derivative(const Vector2d& pixel) const {
 }
 
 std::optional<BoardMap> fit_board_map(const std::vector<Vector2d>& corners, const Target& target) {
-  std::vector<cv::Point2d> pixels, board;
+  std::vector<Vector2d> pixels, board;
   BoardMap map;
   Vector2d low = Vector2d::Constant(1e9), high = -low;
   for (std::size_t i = 0; i < corners.size(); ++i) {
@@ -73,15 +73,15 @@ std::optional<BoardMap> fit_board_map(const std::vector<Vector2d>& corners, cons
     const Vector2d p = target.corner(static_cast<int>(i));
     low = low.cwiseMin(corners[i]);
     high = high.cwiseMax(corners[i]);
-    pixels.emplace_back(corners[i].x(), corners[i].y());
-    board.emplace_back(p.x(), p.y());
+    pixels.push_back(corners[i]);
+    board.push_back(p);
     map.centre += corners[i];
   }
   if (pixels.size() < 4) return std::nullopt;
   map.centre /= static_cast<double>(pixels.size());
-  const cv::Mat H = cv::findHomography(pixels, board);
-  if (H.empty()) return std::nullopt;
-  for (int i = 0; i < 9; ++i) map.board_from_pixel(i / 3, i % 3) = H.at<double>(i / 3, i % 3);
+  const auto H = find_homography(pixels, board);
+  if (!H) return std::nullopt;
+  map.board_from_pixel = *H;
   map.scale_px = std::max(1.0, (high - low).norm());
   fit_remainder(map, corners, target);
   return map;

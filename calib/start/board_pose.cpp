@@ -3,30 +3,27 @@
 #include "calib/start/board_pose.h"
 
 #include <cmath>
-#include <opencv2/calib3d.hpp>
 
+#include "calib/board/board_homography.h"
 #include "calib/observations.h"
+#include "calib/start/refine_views.h"
 
 namespace lightstripe {
 
 std::optional<Rigid3> board_pose(const Camera& camera, const Target& target,
                                  const std::vector<Eigen::Vector2d>& corners) {
-  std::vector<cv::Point2d> rays;
-  std::vector<cv::Point3d> board;
+  std::vector<Eigen::Vector2d> rays, board;
   for (int i = 0; i < target.num_corners(); ++i) {
     const auto& corner = corners[static_cast<std::size_t>(i)];
     const auto ray = is_seen(corner) ? unproject(camera, corner) : std::nullopt;
     if (!ray) continue;
     rays.emplace_back(ray->x(), ray->y());
-    board.emplace_back(target.corner(i).x(), target.corner(i).y(), 0);
+    board.push_back(target.corner(i));
   }
-  if (rays.size() < 4) return std::nullopt;
-  cv::Mat r, t;
-  cv::solvePnP(board, rays, cv::Mat::eye(3, 3, CV_64F), cv::noArray(), r, t);
-  const Eigen::Vector3d turn(r.at<double>(0), r.at<double>(1), r.at<double>(2));
-  Rigid3 pose;
-  if (turn.norm() > 0) pose.rotation = Eigen::AngleAxisd(turn.norm(), turn.normalized());
-  pose.translation = {t.at<double>(0), t.at<double>(1), t.at<double>(2)};
+  const auto H = find_homography(board, rays);
+  if (!H) return std::nullopt;
+  Rigid3 pose = pose_from_homography(*H);
+  refine_pose(camera, target, corners, pose);
   return pose;
 }
 

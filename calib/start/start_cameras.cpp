@@ -6,12 +6,14 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <opencv2/calib3d.hpp>
-#include <span>
+#include <optional>
+#include <utility>
 
 #include "calib/adjust/board_surface.h"
+#include "calib/board/board_homography.h"
 #include "calib/start/board_pose.h"
 #include "calib/start/initial_values.h"
+#include "calib/start/refine_views.h"
 
 namespace lightstripe {
 namespace {
@@ -21,61 +23,33 @@ constexpr double kMinTiltDeg =
     3;  // of the boards against their mean direction; below it f and the range are one
 constexpr double kMaxViewErrorPx = 3;  // a view beyond it has corners in a wrong order, or another board
 
-std::vector<cv::Point2f> cv_points(const std::vector<Eigen::Vector2d>& corners) {
-  std::vector<cv::Point2f> points;
-  points.reserve(corners.size());
-  for (const auto& p : corners)
-    if (is_seen(p)) points.emplace_back(static_cast<float>(p.x()), static_cast<float>(p.y()));
-  return points;
-}
+/// The seen corners in the image, and the same on the board.
+struct Corners {
+  std::vector<Eigen::Vector2d> pixels, board;
+};
 
-/// The seen corners on the board.
-std::vector<cv::Point3f> cv_board(const Target& target, const std::vector<Eigen::Vector2d>& corners) {
-  std::vector<cv::Point3f> points;
+Corners seen_corners(const SessionView& view, const Target& target) {
+  Corners out;
   for (int i = 0; i < target.num_corners(); ++i) {
-    if (!is_seen(corners[static_cast<std::size_t>(i)])) continue;
-    const Eigen::Vector2d p = target.corner(i);
-    points.emplace_back(static_cast<float>(p.x()), static_cast<float>(p.y()), 0.0f);
+    const Eigen::Vector2d& pixel = view.corners[static_cast<std::size_t>(i)];
+    if (!is_seen(pixel)) continue;
+    out.pixels.push_back(pixel);
+    out.board.push_back(target.corner(i));
   }
-  return points;
+  return out;
 }
 
-/// The value to 20 bits: enough for a start. OpenCV solves by LAPACK, whose last bits depend on where in
-/// memory its matrices happen to lie, that is on the run; what follows must not.
-double rounded(double value) {
-  int exponent = 0;
-  const double mantissa = std::frexp(value, &exponent);
-  return std::ldexp(std::round(std::ldexp(mantissa, 20)), exponent - 20);
-}
-
-double rounded(const cv::Mat& values, int i) { return rounded(values.at<double>(i)); }
-
-Rigid3 rounded(const Rigid3& pose) {
-  const Eigen::Vector4d q = pose.rotation.coeffs().unaryExpr([](double v) { return rounded(v); });
-  return {Eigen::Quaterniond(q).normalized(),
-          pose.translation.unaryExpr([](double v) { return rounded(v); })};
-}
-
-Rigid3 rigid(const cv::Mat& rotation_vector, const cv::Mat& translation) {
-  const Eigen::Vector3d r(rounded(rotation_vector, 0), rounded(rotation_vector, 1),
-                          rounded(rotation_vector, 2));
-  const double angle = r.norm();
-  Rigid3 result;
-  if (angle > 0) result.rotation = Eigen::AngleAxisd(angle, r / angle);
-  result.translation = {rounded(translation, 0), rounded(translation, 1), rounded(translation, 2)};
-  return result;
+std::optional<Eigen::Matrix3d> pixel_from_board(const SessionView& view, const Target& target) {
+  const Corners corners = seen_corners(view, target);
+  return find_homography(corners.board, corners.pixels);
 }
 
 /// The board's normal for a camera of a guessed focal length: K^T times the vanishing line of the board's
 /// plane.
 Eigen::Vector3d rough_normal(const SessionView& view, const Target& target, double width, double height) {
-  std::vector<cv::Point2f> board;
-  for (const auto& p : cv_board(target, view.corners)) board.emplace_back(p.x, p.y);
-  const cv::Mat H = cv::findHomography(board, cv_points(view.corners));
-  if (H.empty()) return Eigen::Vector3d::UnitZ();
-  Eigen::Matrix3d pixel_from_board;
-  for (int i = 0; i < 9; ++i) pixel_from_board(i / 3, i % 3) = H.at<double>(i / 3, i % 3);
-  const Eigen::Vector3d vanishing_line = pixel_from_board.inverse().transpose().col(2);
+  const auto H = pixel_from_board(view, target);
+  if (!H) return Eigen::Vector3d::UnitZ();
+  const Eigen::Vector3d vanishing_line = H->inverse().transpose().col(2);
   const double f = 1.5 * std::max(width, height);
   Eigen::Matrix3d K = Eigen::Matrix3d::Identity();
   K << f, 0, width / 2, 0, f, height / 2, 0, 0, 1;
@@ -131,37 +105,68 @@ struct CameraStart {
   std::vector<double> view_rms_px;
 };
 
+/// Focal lengths from the homographies of all views, the principal point in the image's middle: the images of
+/// a board's axes, and of their bisectors, are orthogonal (Zhang 2000, section 3.1, with a known centre).
+Camera focal_start(const std::vector<Eigen::Matrix3d>& homographies, const std::array<int, 2>& size) {
+  Camera camera{size[0], size[1], 0, 0, 0.5 * (size[0] - 1), 0.5 * (size[1] - 1), {}};
+  Eigen::Matrix3d to_centre = Eigen::Matrix3d::Identity();
+  to_centre.col(2) << -camera.cx, -camera.cy, 1;
+  Eigen::Matrix2d A = Eigen::Matrix2d::Zero();
+  Eigen::Vector2d b = Eigen::Vector2d::Zero();
+  for (const Eigen::Matrix3d& H : homographies) {
+    const Eigen::Matrix3d centred = to_centre * H;
+    const Eigen::Vector3d h = centred.col(0), v = centred.col(1);
+    const std::array<std::pair<Eigen::Vector3d, Eigen::Vector3d>, 2> pairs{
+        {{h.normalized(), v.normalized()}, {(h + v).normalized(), (h - v).normalized()}}};
+    for (const auto& [first, second] : pairs) {  // first' diag(1/fx^2, 1/fy^2, 1) second = 0
+      const Eigen::Vector2d row(first.x() * second.x(), first.y() * second.y());
+      A += row * row.transpose();
+      b -= row * (first.z() * second.z());
+    }
+  }
+  const Eigen::Vector2d inverse_squares = A.fullPivLu().solve(b);
+  camera.fx = std::sqrt(std::abs(1 / inverse_squares.x()));
+  camera.fy = std::sqrt(std::abs(1 / inverse_squares.y()));
+  return camera;
+}
+
+/// Nothing where the views have no camera in common.
+std::optional<CameraStart> solve_camera(const std::vector<const SessionView*>& views, const Target& target,
+                                        const std::array<int, 2>& size) {
+  constexpr double kMaxFocal = 1e6;
+  const auto plausible = [](double f) { return f > 0 && f < kMaxFocal; };
+  std::vector<Eigen::Matrix3d> homographies;
+  std::vector<const std::vector<Eigen::Vector2d>*> corners;
+  for (const auto* view : views) {
+    const auto H = pixel_from_board(*view, target);
+    if (!H) return std::nullopt;
+    homographies.push_back(*H);
+    corners.push_back(&view->corners);
+  }
+  CameraStart start;
+  start.camera = focal_start(homographies, size);
+  if (!plausible(start.camera.fx) || !plausible(start.camera.fy)) return std::nullopt;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    Eigen::Matrix3d K = Eigen::Matrix3d::Identity();
+    K << start.camera.fx, 0, start.camera.cx, 0, start.camera.fy, start.camera.cy, 0, 0, 1;
+    start.cam_from_board.push_back(pose_from_homography(K.inverse() * homographies[i]));
+    refine_pose(start.camera, target, *corners[i], start.cam_from_board.back());
+  }
+  if (!refine_camera(start.camera, target, corners, start.cam_from_board) || !plausible(start.camera.fx) ||
+      !plausible(start.camera.fy))
+    return std::nullopt;
+  for (std::size_t i = 0; i < views.size(); ++i)
+    start.view_rms_px.push_back(corner_rms_px(start.camera, target, start.cam_from_board[i], *corners[i]));
+  return start;
+}
+
 CameraStart calibrate_camera(const std::vector<const SessionView*>& views, const Target& target,
                              const std::string& sensor, const std::array<int, 2>& size) {
-  std::vector<std::vector<cv::Point2f>> pixels;
-  std::vector<std::vector<cv::Point3f>> boards;
-  for (const auto* view : views) {
-    pixels.push_back(cv_points(view->corners));
-    boards.push_back(cv_board(target, view->corners));
-  }
-  cv::Mat K, distortion, per_view;
-  std::vector<cv::Mat> rotations, translations;
-  try {
-    cv::calibrateCamera(boards, pixels, cv::Size(size[0], size[1]), K, distortion, rotations, translations,
-                        cv::noArray(), cv::noArray(), per_view, cv::CALIB_FIX_K3,
-                        cv::TermCriteria(cv::TermCriteria::COUNT + cv::TermCriteria::EPS, 30, 1e-9));
-  } catch (const cv::Exception&) {
-    K.release();
-  }
-  if (K.empty() || !(K.at<double>(0, 0) > 0 && K.at<double>(0, 0) < 1e6))
-    throw NotUsable(
-        fmt::format("sensor {}: no camera explains the {} board views; tilt the board by 20 to 45 degrees to "
-                    "different sides and check the number of corners and the pitch",
-                    sensor, views.size()));
-  CameraStart start;
-  const cv::Mat k = K.reshape(1, 1);
-  start.camera = {size[0], size[1], rounded(k, 0), rounded(k, 4), rounded(k, 2), rounded(k, 5), {}};
-  for (int i = 0; i < 4; ++i) start.camera.distortion[static_cast<std::size_t>(i)] = rounded(distortion, i);
-  for (std::size_t i = 0; i < views.size(); ++i) {
-    start.cam_from_board.push_back(rigid(rotations[i], translations[i]));
-    start.view_rms_px.push_back(per_view.at<double>(static_cast<int>(i)));
-  }
-  return start;
+  if (auto start = solve_camera(views, target, size)) return *std::move(start);
+  throw NotUsable(
+      fmt::format("sensor {}: no camera explains the {} board views; tilt the board by 20 to 45 degrees to "
+                  "different sides and check the number of corners and the pitch",
+                  sensor, views.size()));
 }
 
 /// One view of wrong corners spoils the whole start: the worst is left out while it stands out.
@@ -187,7 +192,7 @@ Rigid3 pose_of(const SessionView& view, const Target& target, const Camera& came
   if (!pose)
     throw NotUsable(view.image +
                     ": no ray of the given camera meets the board; check the camera that is given");
-  return rounded(*pose);
+  return *pose;
 }
 
 bool knows_heights(const SessionViews& session, std::size_t sensor) {

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cerrno>
 #include <string>
 #include <system_error>
@@ -40,6 +41,17 @@ class Descriptor {
  private:
   int number_;
 };
+
+/// One name that a signal handler can read: no allocation, no lock.
+struct NameSlot {
+  enum State : int { kFree, kTaken, kValid };
+  std::atomic<int> state{kFree};
+  std::array<char, 4096> name;
+};
+static_assert(std::atomic<int>::is_always_lock_free);
+
+constexpr int kNameSlots = 64;  // more files than that are not written at once
+std::array<NameSlot, kNameSlots> name_slots;
 
 /// The file behind a symbolic link, so that the link stays a link.
 fs::path followed(const fs::path& path) {
@@ -73,6 +85,28 @@ fs::path create_beside(const fs::path& path) {
 
 }  // namespace
 
+TemporaryName::TemporaryName(const fs::path& path) {
+  const std::string name = path.string();
+  for (int i = 0; i < kNameSlots && name.size() < name_slots[0].name.size(); ++i) {
+    NameSlot& slot = name_slots[static_cast<std::size_t>(i)];
+    int expected = NameSlot::kFree;
+    if (!slot.state.compare_exchange_strong(expected, NameSlot::kTaken)) continue;
+    std::copy_n(name.c_str(), name.size() + 1, slot.name.begin());
+    slot.state = NameSlot::kValid;
+    slot_ = i;
+    return;
+  }
+}
+
+TemporaryName::~TemporaryName() {
+  if (slot_ >= 0) name_slots[static_cast<std::size_t>(slot_)].state = NameSlot::kFree;
+}
+
+void delete_temporary_files() noexcept {
+  for (const NameSlot& slot : name_slots)
+    if (slot.state == NameSlot::kValid) ::unlink(slot.name.data());
+}
+
 AtomicFile::AtomicFile(const fs::path& path) : path_(followed(path)) {
   std::error_code error;
   const fs::file_status status = fs::status(path_, error);
@@ -85,6 +119,7 @@ AtomicFile::AtomicFile(const fs::path& path) : path_(followed(path)) {
   }
   make_folder(path_.parent_path(), path_);
   temporary_ = create_beside(path_);
+  name_.emplace(temporary_);
 }
 
 AtomicFile::~AtomicFile() {
@@ -98,6 +133,7 @@ void AtomicFile::commit() {
   fs::rename(temporary_, path_, error);
   if (error) cannot_write(path_, error.value());
   committed_ = true;
+  name_.reset();
 }
 
 void cannot_write(const fs::path& path, int error_number) {
@@ -124,11 +160,21 @@ void write_file(const fs::path& path, std::string_view text) {
   file.commit();
 }
 
+void refuse_special_file(const fs::path& path) {
+  struct stat status {};
+  if (::stat(path.c_str(), &status) != 0 || S_ISREG(status.st_mode) || S_ISDIR(status.st_mode)) return;
+  const char* what = S_ISFIFO(status.st_mode)   ? "is a pipe"
+                     : S_ISSOCK(status.st_mode) ? "is a socket"
+                                                : "is a device";
+  throw Error(path.string(), what, "give a file, e.g. write its content to one first");
+}
+
 std::string read_file(const fs::path& path, std::size_t limit) {
   const auto give_up = [&path](int error_number) {
     throw Error(path.string(), fmt::format("cannot be read ({})", reason(error_number)),
                 error_number == EACCES ? "get the right to read it, e.g. by chmod +r" : "check the path");
   };
+  refuse_special_file(path);  // before it is opened: a pipe would wait for its writer
   const Descriptor in(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
   if (in.get() < 0) give_up(errno);
   struct stat status {};

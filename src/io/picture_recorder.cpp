@@ -99,7 +99,8 @@ PictureRecorder::PictureRecorder(const fs::path& place, PictureFormat format)
   }
   for (const auto& entry : fs::directory_iterator(folder)) {
     const std::string extension = entry.path().extension().string();
-    if (extension == ".pgm" || extension == ".png" || extension == ".csv")
+    if (extension == ".pgm" || extension == ".png" || extension == ".csv" ||
+        entry.path().filename() == "record.yaml")
       throw Error(folder.string(), "holds a recording already", "name another folder");
   }
 }

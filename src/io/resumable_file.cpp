@@ -4,6 +4,8 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -68,8 +70,15 @@ ResumableFile::ResumableFile(const fs::path& path, std::string_view head)
   if (direct_) partial_ = path_;
   std::error_code error;
   if (!direct_ && path_.has_parent_path()) fs::create_directories(path_.parent_path(), error);
-  open(O_CREAT | O_TRUNC);
-  write_at(0, head);
+  open(O_CREAT);
+  try {
+    if (!direct_ && ::ftruncate(descriptor_, 0) != 0) cannot_write(path_, errno);
+    write_at(0, head);
+  } catch (...) {
+    discard();  // a disk that is full from the start: nothing is left
+    ::close(descriptor_);
+    throw;
+  }
 }
 
 ResumableFile::ResumableFile(const fs::path& path, std::string_view head, const Mark& mark)
@@ -90,9 +99,22 @@ ResumableFile::~ResumableFile() {
   if (descriptor_ >= 0) ::close(descriptor_);
 }
 
-void ResumableFile::open(int flags) {
+void ResumableFile::open(int flags, int attempts) {
   descriptor_ = ::open(partial_.c_str(), (direct_ ? O_WRONLY : O_RDWR | flags) | O_CLOEXEC, 0666);
   if (descriptor_ < 0) cannot_write(path_, errno);
+  if (direct_) return;
+  // Locked, so that two runs never write one file. Another run may have given the file its final name between
+  // our opening and locking it: then it is opened anew.
+  struct stat ours {
+  }, there{};
+  const bool locked = ::flock(descriptor_, LOCK_EX | LOCK_NB) == 0;
+  const bool same = locked && ::fstat(descriptor_, &ours) == 0 && ::stat(partial_.c_str(), &there) == 0 &&
+                    ours.st_ino == there.st_ino && ours.st_dev == there.st_dev;
+  if (same) return;
+  ::close(descriptor_);
+  descriptor_ = -1;
+  if (locked && attempts > 0) return open(flags, attempts - 1);
+  throw Error(path_.string(), "is being written by another run", "wait for it, or name another output");
 }
 
 void ResumableFile::write_at(std::int64_t offset, std::string_view bytes) {

@@ -19,7 +19,8 @@ class ResumableFile {
     std::uint32_t crc = 0;
   };
 
-  /// Begins anew with this head. A device or pipe (/dev/stdout) is written directly.
+  /// Begins anew with this head. A device or pipe (/dev/stdout) is written directly. An Error where another
+  /// run writes the same file: it is locked until this object ends.
   ResumableFile(const std::filesystem::path& path, std::string_view head);
   /// Goes on behind `mark`; what was written after it is cut off. An Error where the file is not there any
   /// more or does not hold what the mark says.
@@ -48,7 +49,7 @@ class ResumableFile {
   static std::filesystem::path partial_of(const std::filesystem::path& path);
 
  private:
-  void open(int flags);
+  void open(int flags, int attempts = 100);
   void write_at(std::int64_t offset, std::string_view bytes);
 
   std::filesystem::path path_, partial_;

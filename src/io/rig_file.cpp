@@ -7,6 +7,7 @@
 #include <set>
 
 #include "core/error.h"
+#include "io/output_guard.h"
 #include "io/rig_fields.h"
 #include "io/yaml_binding.h"
 
@@ -85,6 +86,7 @@ Sensor checked_sensor(const RigSensorFields& fields, RigUse use, const Place& pl
   Sensor sensor;
   sensor.name = (place / "name").given(fields.name);
   (place / "name").require(!sensor.name.empty(), "is empty", "give each sensor a name");
+  check_sensor_name(sensor.name, place.file + ": " + (place / "name").key);
   const std::array<int, 2>& size = (place / "image_size").given(fields.image_size);
   (place / "image_size")
       .require(std::min(size[0], size[1]) > 0 && std::max(size[0], size[1]) <= kMaxSide, "is out of range",

@@ -11,7 +11,19 @@
 
 namespace lightstripe {
 
+namespace {
+
+/// Whether a spreadsheet would take the text for a formula and run it.
+bool is_formula(std::string_view text) {
+  if (text.empty()) return false;
+  if (text.front() == '=' || text.front() == '@') return true;
+  return (text.front() == '+' || text.front() == '-') && text.find_first_of("(|!") != std::string_view::npos;
+}
+
+}  // namespace
+
 std::string csv_cell(std::string_view text) {
+  if (is_formula(text)) return csv_cell("'" + std::string(text));  // spreadsheets show it as a text
   const bool plain = text.find_first_of(",\"\r\n") == std::string_view::npos && !text.empty() &&
                      text.front() != '#' && text.front() != ' ' && text.back() != ' ';
   if (plain) return std::string(text);

@@ -18,7 +18,8 @@
 
 namespace lightstripe {
 
-/// A cell as it stands, or in quotes where it would be misread.
+/// A cell as it stands, or in quotes where it would be misread. A text that a spreadsheet would run as a
+/// formula gets an apostrophe ahead.
 std::string csv_cell(std::string_view text);
 
 /// image (file name) -> position. `column` is "travel_mm" or "angle_deg". Duplicate images, NaN, short rows:

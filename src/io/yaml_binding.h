@@ -56,6 +56,7 @@ struct FieldText {
   std::string key;    ///< dotted
   std::string value;  ///< as YAML, empty where not given
   std::string comment;
+  std::string type;  ///< NUMBER, INTEGER, TEXT, or the names that may be given: "left|right"
 };
 
 template <HasFields T>
@@ -64,8 +65,8 @@ std::vector<FieldText> list_fields(const T& object) {
   detail::write_field(node, object);
   std::vector<FieldText> fields;
   detail::for_each_leaf(
-      node, "", [&fields](const std::string& key, const std::string& value, const std::string& comment) {
-        fields.push_back({key, value, comment});
+      node, "", [&fields](const std::string& key, const std::string& value, const detail::YamlNode& leaf) {
+        fields.push_back({key, value, leaf.comment, leaf.type});
       });
   return fields;
 }

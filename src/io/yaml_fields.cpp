@@ -189,11 +189,11 @@ YamlNode parse_override(const std::string& text) {
 
 void for_each_leaf(
     const YamlNode& node, const std::string& key,
-    const std::function<void(const std::string&, const std::string&, const std::string&)>& visit) {
+    const std::function<void(const std::string&, const std::string&, const YamlNode&)>& visit) {
   if (node.kind != Kind::kMap) {
     const bool given = node.kind != Kind::kNull;
     std::string value = given ? emit_flow(node) : "";
-    visit(key, value, node.comment);
+    visit(key, value, node);
     return;
   }
   for (const YamlNode& item : node.items)

@@ -61,9 +61,8 @@ YamlPlace place_of(const YamlSubtree& part);
 void add_entry(YamlSubtree& part, const std::string& key, const std::string& text);
 /// The text of an override as a tree: YAML, or the plain text where it is none.
 YamlNode parse_override(const std::string& text);
-void for_each_leaf(
-    const YamlNode& node, const std::string& key,
-    const std::function<void(const std::string&, const std::string&, const std::string&)>& visit);
+void for_each_leaf(const YamlNode& node, const std::string& key,
+                   const std::function<void(const std::string&, const std::string&, const YamlNode&)>& visit);
 
 // Seen by each other's bodies, whatever the nesting: a struct in a vector in an optional.
 template <HasEnumNames E>

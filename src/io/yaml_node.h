@@ -19,6 +19,7 @@ struct YamlNode {
   std::string text;             ///< scalar
   std::string key;              ///< its name in the map it is in
   std::string comment;          ///< written behind it
+  const char* type = "";        ///< of a written field, for --help: NUMBER, "auto|gray" ...
   std::vector<YamlNode> items;  ///< of a sequence, or of a map in the file's order
 };
 

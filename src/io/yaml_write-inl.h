@@ -3,9 +3,38 @@
 // Bodies of the writing templates of yaml_fields.h.
 #pragma once
 
+#include <type_traits>
+
 #include "io/yaml_fields.h"
 
 namespace lightstripe::detail {
+
+/// What a field takes, as --help and the shell's completion show it.
+template <class T>
+struct FieldType {
+  static const char* name() {
+    if constexpr (HasEnumNames<T>) {
+      static const std::string choices = [] {
+        std::string text;
+        for (const auto& entry : enum_names(T{})) text += (text.empty() ? "" : "|") + std::string(entry.name);
+        return text;
+      }();
+      return choices.c_str();
+    } else if constexpr (std::is_same_v<T, bool>) {
+      return "true|false";
+    } else if constexpr (std::is_integral_v<T>) {
+      return "INTEGER";
+    } else if constexpr (std::is_floating_point_v<T>) {
+      return "NUMBER";
+    } else if constexpr (std::is_same_v<T, std::string>) {
+      return "TEXT";
+    } else {
+      return "VALUE";
+    }
+  }
+};
+template <class T>
+struct FieldType<std::optional<T>> : FieldType<T> {};
 
 template <HasEnumNames E>
 void write_field(YamlNode& node, const E& value) {
@@ -52,6 +81,7 @@ struct FieldWriter {
     YamlNode& item = node.items.emplace_back();
     item.key = std::string(name);
     item.comment = std::string(comment);
+    item.type = FieldType<T>::name();
     write_field(item, field);
   }
 };

@@ -1,0 +1,108 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+#include "io/output_guard.h"
+
+#include <fmt/format.h>
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <system_error>
+#include <utility>
+#include <variant>
+
+#include "core/error.h"
+#include "io/images.h"
+
+namespace lightstripe {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What makes two names the same file.
+using Identity = std::variant<std::pair<dev_t, ino_t>, std::string>;
+
+/// Nothing for devices, pipes and folders.
+std::optional<Identity> identity_of(const fs::path& path) {
+  struct stat status {};
+  if (::stat(path.c_str(), &status) == 0) {
+    if (!S_ISREG(status.st_mode)) return std::nullopt;
+    return std::pair(status.st_dev, status.st_ino);
+  }
+  std::error_code error;
+  const fs::path resolved = fs::weakly_canonical(fs::absolute(path, error), error);
+  return error ? path.string() : resolved.string();
+}
+
+void add_pattern(const fs::path& folder, const std::string& pattern, std::vector<fs::path>& files) {
+  if (pattern.empty()) return;
+  try {
+    const auto found = list_files(folder, pattern);
+    files.insert(files.end(), found.begin(), found.end());
+  } catch (const Error&) {
+    return;  // told when it is read
+  }
+}
+
+}  // namespace
+
+void guard_outputs(const std::vector<fs::path>& inputs, const std::vector<fs::path>& outputs) {
+  std::map<Identity, fs::path> read, written;
+  for (const fs::path& input : inputs)
+    if (!input.empty())
+      if (const auto identity = identity_of(input)) read.emplace(*identity, input);
+  for (const fs::path& output : outputs) {
+    if (output.empty()) continue;
+    const auto identity = identity_of(output);
+    if (!identity) continue;
+    if (const auto found = read.find(*identity); found != read.end())
+      throw Error(output.string(),
+                  fmt::format("would be written over, but is one of the inputs ({})", found->second.string()),
+                  "name another output");
+    if (const auto [found, is_new] = written.emplace(*identity, output); !is_new)
+      throw Error(output.string(), fmt::format("is another output as well ({})", found->second.string()),
+                  "give every output a name of its own");
+  }
+}
+
+std::vector<fs::path> files_of(const Session& session) {
+  std::vector<fs::path> files;
+  for (const SessionSensor& sensor : session.sensors) {
+    add_pattern(session.folder, sensor.board, files);
+    add_pattern(session.folder, sensor.laser.value_or(""), files);
+    add_pattern(session.folder, sensor.board_only.value_or(""), files);
+    add_pattern(session.folder, sensor.background.value_or(""), files);
+    for (const auto& file : {sensor.bed, sensor.heights})
+      if (file) files.push_back(session.folder / *file);
+    if (sensor.camera) files.push_back(session.folder / sensor.camera->substr(0, sensor.camera->rfind('#')));
+  }
+  if (session.motion) {
+    add_pattern(session.folder, session.motion->board, files);
+    files.push_back(session.folder / session.motion->travel);
+  }
+  if (session.tool_poses) files.push_back(session.folder / *session.tool_poses);
+  if (!session.aprilgrid_file.empty()) files.push_back(session.folder / session.aprilgrid_file);
+  return files;
+}
+
+std::vector<fs::path> files_of(const Scan& scan) {
+  std::vector<fs::path> files{scan.folder / scan.rig};
+  for (const auto& [sensor, pattern] : scan.frames) add_pattern(scan.folder, pattern, files);
+  for (const auto& [sensor, pattern] : scan.background.of_sensor) add_pattern(scan.folder, pattern, files);
+  if (!scan.travel_file.empty()) files.push_back(scan.folder / scan.travel_file);
+  if (!scan.poses_file.empty()) files.push_back(scan.folder / scan.poses_file);
+  return files;
+}
+
+void check_sensor_name(const std::string& name, const std::string& key) {
+  const bool control = std::any_of(name.begin(), name.end(), [](char c) {
+    const auto byte = static_cast<unsigned char>(c);
+    return byte < 0x20 || byte == 0x7f;
+  });
+  if (name.empty() || name.front() == '.' || control || name.find_first_of("/\\") != std::string::npos)
+    throw Error(key, "cannot be a sensor's name, since files are named after it",
+                "use letters, digits, - and _, no slash, and no dot at the beginning");
+}
+
+}  // namespace lightstripe

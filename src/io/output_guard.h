@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+// The one rule that keeps the user's files: no output is one of the inputs, or another output.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "io/session_file.h"
+
+namespace lightstripe {
+
+/// An Error where an output is one of the inputs or stands there twice, compared as files (device and inode,
+/// so links and "./" do not help), or by the resolved path where it does not exist yet. Devices and pipes may
+/// be named twice. Empty paths are passed over.
+void guard_outputs(const std::vector<std::filesystem::path>& inputs,
+                   const std::vector<std::filesystem::path>& outputs);
+
+/// All files that a session or a scan names, as far as they exist; what is missing is told when it is read.
+std::vector<std::filesystem::path> files_of(const Session& session);
+std::vector<std::filesystem::path> files_of(const Scan& scan);
+
+/// An Error where a text cannot name a sensor, since files are named after it: empty, with a slash or a
+/// control character, or beginning with a dot. `key` stands in the message.
+void check_sensor_name(const std::string& name, const std::string& key);
+
+}  // namespace lightstripe
