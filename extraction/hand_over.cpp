@@ -8,14 +8,6 @@
 namespace lightstripe {
 namespace {
 
-/// As many stripes as needed; the memory of points that are not needed now waits in the workspace.
-void resize_stripes(std::size_t count, ExtractionWorkspace& w, std::vector<Stripe>& stripes) {
-  for (; stripes.size() > count; stripes.pop_back()) w.spare.push_back(std::move(stripes.back()));
-  for (; stripes.size() < count && !w.spare.empty(); w.spare.pop_back())
-    stripes.push_back(std::move(w.spare.back()));
-  stripes.resize(count);
-}
-
 /// One line into the result's own memory, with growing x or y.
 void copy_line(const LineSet& lines, const LineRange& r, const PixelPlace& origin,
                std::vector<StripePoint>& points) {
@@ -36,6 +28,13 @@ void copy_line(const LineSet& lines, const LineRange& r, const PixelPlace& origi
 }
 
 }  // namespace
+
+void resize_stripes(std::size_t count, ExtractionWorkspace& w, std::vector<Stripe>& stripes) {
+  for (; stripes.size() > count; stripes.pop_back()) w.spare.push_back(std::move(stripes.back()));
+  for (; stripes.size() < count && !w.spare.empty(); w.spare.pop_back())
+    stripes.push_back(std::move(w.spare.back()));
+  stripes.resize(count);
+}
 
 void hand_over(ExtractionWorkspace& w, int max_lines, const PixelPlace& origin, ExtractionResult& result) {
   w.order.clear();
