@@ -11,6 +11,7 @@
 #include "core/error.h"
 #include "io/images.h"
 #include "io/number_text.h"
+#include "report/growing_view.h"
 #include "report/preview.h"
 #include "report/scan_products.h"
 
@@ -173,6 +174,13 @@ int run_reconstruct(const ReconstructArguments& arguments) {
   if (!products.height_map.empty())
     job.other_outputs.push_back(fs::path(products.height_map).replace_extension(".png"));
   if (!arguments.preview.empty()) draw_preview_of(job, preview, arguments.preview);
+  std::optional<GrowingView> growing;
+  if (job.follow && !arguments.products.view.empty()) {
+    std::vector<std::string> sensors;
+    for (const Sensor& sensor : job.rig.sensors) sensors.push_back(sensor.name);
+    growing.emplace(arguments.products.view, job.cloud.filename().string() + " (growing)", sensors);
+    show_growth(job, *growing);
+  }
   std::vector<std::string> made;
   make_products_of(job, products, made);
   const InterruptWatch interrupt;

@@ -56,7 +56,8 @@ void add_record_command(CLI::App& app, Command& run) {
       app.add_subcommand("record", "a camera's pictures to a folder, with travel and every lost frame named");
   auto arguments = std::make_shared<RecordArguments>();
   command->add_option("source", arguments->job.source, kSourceHelp)->required();
-  add_common_options(*command, arguments->common, "folder for the pictures (required)");
+  add_common_options(*command, arguments->common,
+                     "folder for the pictures, or one growing file FILE.tif (required)");
   command->get_option("--output")->required();
   one_of(command->add_option("--format", arguments->format, "pgm (fast) or png (smaller) [pgm]"),
          {"pgm", "png"});

@@ -3,10 +3,8 @@
 #include "extraction/extract_stripes.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 
 #include "extraction/compare/grey_value_lines.h"
 #include "extraction/compare/hu_recursive.h"
@@ -14,6 +12,7 @@
 #include "extraction/compare/zhou_roi.h"
 #include "extraction/image/binned_image.h"
 #include "extraction/image/image_facts.h"
+#include "extraction/image/negative.h"
 #include "extraction/image/stripe_width.h"
 #include "extraction/kernels/width_rule.h"
 #include "extraction/lines/curvature_bias.h"
@@ -23,6 +22,7 @@
 #include "extraction/lines/line_noise.h"
 #include "extraction/lines/smoothing.h"
 #include "extraction/parsed_options.h"
+#include "extraction/track/track_stripes.h"
 #include "extraction/workspace.h"
 
 namespace lightstripe {
@@ -37,6 +37,7 @@ struct Run {
   ImageFacts facts;
   ExtractionWorkspace& w;
   ExtractionResult& result;
+  const WindowedSearch* windowed = nullptr;  ///< null: the whole image
 };
 
 double sigma_of_width(double full_width) {
@@ -138,7 +139,8 @@ void find_lines_at_own_scale(const Run<T>& run) {
                                  run.facts.histogram.largest,
                                  run.options.lines.min_length,
                                  run.options.stop_after,
-                                 {}};
+                                 {},
+                                 run.windowed};
   const LimitsMaker limits{&run, [](const void* given, const DerivativeKernels& kernels, double noise) {
                              const auto& r = *static_cast<const Run<T>*>(given);
                              ImageFacts facts = r.facts;
@@ -270,6 +272,7 @@ void finish_lines(const Run<T>& run, ScaleGroup& group) {
   if (run.options.curvature_correction && has_ridges(run.options.method))
     correct_curvature_bias(kernels, group.lines, w.bends);
   if (run.options.smoothing) smooth_along_lines(group.lines, w.smoothing);
+  add_bend_errors(group.lines);
   // Last: neither bends nor smoothing may take a bias for scatter.
   add_asymmetry(run.image, kernels, group.lines, w.asymmetry);
 }
@@ -280,33 +283,28 @@ bool scales_are_free(const ExtractionOptions& options, const ParsedOptions& pars
          options.method == ExtractionMethod::kDirectionGuided;
 }
 
-/// The image in which dark lines are bright: each grey value taken from the largest that its kind of pixel
-/// has, or, of 16-bit pixels, from the largest of as many bits as the image uses. Colour tells nothing of
-/// them.
-template <class T>
-ImageView<T> inverted(ImageView<T> image, Image<T>& negative) {
-  T largest = std::numeric_limits<T>::max();
-  if constexpr (sizeof(T) > 1) {
-    T brightest = 0;
-    for (int y = 0; y < image.height; ++y)
-      brightest = std::max(brightest, *std::max_element(image.row(y), image.row(y) + image.width));
-    largest = static_cast<T>(std::bit_ceil(std::uint32_t{brightest} + 1) - 1);
-  }
-  negative.width = image.width;
-  negative.height = image.height;
-  negative.pixels.resize(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
-  for (int y = 0; y < image.height; ++y)
-    std::transform(image.row(y), image.row(y) + image.width, negative.row(y),
-                   [largest](T grey) { return static_cast<T>(largest - grey); });
-  return negative.view();
+void begin(ExtractionWorkspace& w, ExtractionResult& result) {
+  result.sigma = result.threshold_low = result.threshold_high = result.noise = 0;
+  result.levels = {};
+  result.impression = Impression::kNone;
+  w.tests.edges = {};
+  w.tests.tried = 0;
+  w.groups.count = 0;
 }
 
-/// The grey level at which pixels are clipped: of 16-bit pixels nobody knows it, but the brightest one fills
-/// at least half of the range.
+/// From the facts to the finished lines.
 template <class T>
-double full_scale_of(ImageView<T>, double brightest) {
-  if constexpr (sizeof(T) == 1) return std::numeric_limits<T>::max();
-  return std::max(1023.0, std::exp2(std::ceil(std::log2(brightest + 1))) - 1);
+void search(const Run<T>& run) {
+  run.result.noise = run.facts.noise.full;
+  choose_levels(run.facts, run.options, run.parsed, run.result);
+  if (scales_are_free(run.options, run.parsed)) {
+    find_lines_at_own_scale(run);
+  } else if (const auto sigma = choose_sigma(run)) {
+    run.result.sigma = *sigma;
+    find_lines(run);
+    if (!run.options.sigma && !run.options.stripe_width) refine_sigma(run);
+  }
+  for (ScaleGroup& group : run.w.groups.used()) finish_lines(run, group);
 }
 
 template <class T>
@@ -315,34 +313,52 @@ void extract(ImageView<T> whole, const ExtractionOptions& options, ExtractionWor
   const ParsedOptions parsed = parse_options(options);
   if (options.polarity == Polarity::kDark && !whole.empty())
     whole = inverted(whole, w.template negative<T>());
-  result.sigma = result.threshold_low = result.threshold_high = result.noise = 0;
-  result.levels = {};
-  result.impression = Impression::kNone;
-  w.tests.edges = {};
-  w.tests.tried = 0;
-  w.groups.count = 0;
+  begin(w, result);
   const ImageView<T> image = region_of(whole, parsed);
   const PixelPlace origin{parsed.roi ? 1.0 * parsed.roi->x : 0.0, parsed.roi ? 1.0 * parsed.roi->y : 0.0};
-  if (!image.empty()) {
-    const Run<T> run{image, options, parsed, look_at(image), w, result};
-    result.noise = run.facts.noise.full;
-    choose_levels(run.facts, options, parsed, result);
-    if (scales_are_free(options, parsed)) {
-      find_lines_at_own_scale(run);
-    } else if (const auto sigma = choose_sigma(run)) {
-      result.sigma = *sigma;
-      find_lines(run);
-      if (!options.sigma && !options.stripe_width) refine_sigma(run);
-    }
-    for (ScaleGroup& group : w.groups.used()) finish_lines(run, group);
-    hand_over(w, options.max_lines, origin, result);
-    if (result.stripes.empty())
-      result.impression = impression_of(
-          run.facts.histogram, {run.facts.noise.seen, full_scale_of(image, run.facts.histogram.largest),
-                                w.tests.tried, w.tests.edges.length});
-    return;
-  }
+  if (image.empty()) return hand_over(w, options.max_lines, origin, result);
+  const Run<T> run{image, options, parsed, look_at(image), w, result, nullptr};
+  search(run);
   hand_over(w, options.max_lines, origin, result);
+  if (result.stripes.empty())
+    result.impression = impression_of(
+        run.facts.histogram, {run.facts.noise.seen, full_scale_of(image, run.facts.histogram.largest),
+                              w.tests.tried, w.tests.edges.length});
+}
+
+/// Where a scale is given, the full search costs no more than windows do.
+bool can_track(const ExtractionOptions& options, const ParsedOptions& parsed) {
+  return scales_are_free(options, parsed) && !parsed.roi && options.stop_after == 0 &&
+         options.polarity == Polarity::kBright;
+}
+
+/// The search in windows; false where the result cannot be that of the full search.
+template <class T>
+bool extract_in_windows(ImageView<T> image, const ExtractionOptions& options, const ParsedOptions& parsed,
+                        const TrackReference& before, ExtractionWorkspace& w, ExtractionResult& result) {
+  const auto facts =
+      look_through(image, before, options.lines.min_length * full_width_of(before.sigma), w.track);
+  if (!facts || seed_block(*facts) > 1) return false;
+  const WindowedSearch windowed{&w.track.windows, &w.track.seen, noise_of_levels(before, facts->noise.seen),
+                                coarsest_level(before)};
+  begin(w, result);
+  search(Run<T>{image, options, parsed, *facts, w, result, &windowed});
+  hand_over(w, 0, {}, result);
+  if (!has_all_lines(before, result.stripes, w.track)) return false;
+  if (options.max_lines > 0 && result.stripes.size() > static_cast<std::size_t>(options.max_lines))
+    resize_stripes(static_cast<std::size_t>(options.max_lines), w, result.stripes);
+  return true;
+}
+
+template <class T>
+bool track(ImageView<T> image, const ExtractionOptions& options, const TrackReference& before,
+           ExtractionWorkspace& w, ExtractionResult& result) {
+  const ParsedOptions parsed = parse_options(options);
+  const bool tracked = !before.empty() && before.width == image.width && before.height == image.height &&
+                       can_track(options, parsed) &&
+                       extract_in_windows(image, options, parsed, before, w, result);
+  if (!tracked) extract(image, options, w, result);
+  return tracked;
 }
 
 }  // namespace
@@ -369,6 +385,16 @@ ExtractionResult extract_stripes(ImageView16 image, const ExtractionOptions& opt
   ExtractionResult result;
   extract(image, options, workspace, result);
   return result;
+}
+
+bool track_stripes(ImageView8 image, const ExtractionOptions& options, const TrackReference& before,
+                   ExtractionWorkspace& workspace, ExtractionResult& result) {
+  return track(image, options, before, workspace, result);
+}
+
+bool track_stripes(ImageView16 image, const ExtractionOptions& options, const TrackReference& before,
+                   ExtractionWorkspace& workspace, ExtractionResult& result) {
+  return track(image, options, before, workspace, result);
 }
 
 }  // namespace lightstripe

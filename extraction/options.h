@@ -44,6 +44,7 @@ struct ExtractionOptions {
   int stop_after = 0;                  ///< no further line is looked for after so many; 0 = all
   int max_lines = 0;                   ///< only the longest lines; 0 = all
   bool curvature_correction = true;    ///< undo the kernels' drift to the inner side of bends
+  bool track = false;                  ///< in sequences: look near the lines of an earlier frame first
   bool smoothing = false;              ///< local quadratic fit along the lines
   LineFilterOptions lines;             ///< what a line has to be like
 };
@@ -63,6 +64,9 @@ void visit_fields(V&& v, ExtractionOptions& o) {
   v("stop_after", o.stop_after, "no further line is looked for after so many (direction-guided); 0 = all");
   v("max_lines", o.max_lines, "only the longest lines; 0 = all");
   v("curvature_correction", o.curvature_correction, "undo the kernels' drift to the inner side of bends");
+  v("track", o.track,
+    "sequences: look near an earlier frame's lines and coarsely over the rest; where a line is lost "
+    "everywhere");
   v("smoothing", o.smoothing,
     "smooth along the lines: a local quadratic fit, its reach chosen from the curvature");
   v("lines", o.lines);

@@ -19,6 +19,7 @@
 #include "extraction/lines/line_noise.h"
 #include "extraction/lines/line_set.h"
 #include "extraction/lines/smoothing.h"
+#include "extraction/track/look_through.h"
 
 namespace lightstripe {
 
@@ -45,6 +46,7 @@ struct ExtractionWorkspace {
   BendWorkspace bends;
   OwnScaleWorkspace<std::uint8_t> own_scale8;
   OwnScaleWorkspace<std::uint16_t> own_scale16;
+  TrackWorkspace track;
   Image8 negative8;  ///< the image with dark lines made bright
   Image16 negative16;
   std::vector<PlacedLine> order;

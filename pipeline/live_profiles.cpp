@@ -11,6 +11,7 @@
 #include "core/error.h"
 #include "core/robust.h"
 #include "extraction/extract_stripes.h"
+#include "extraction/track/track_stripes.h"
 #include "extraction/workspace.h"
 #include "io/number_text.h"
 #include "reconstruct/triangulate.h"
@@ -21,7 +22,23 @@ namespace {
 struct Memory {
   ExtractionWorkspace workspace;
   ExtractionResult result;
+  std::int64_t key_frame = -1;  ///< whose lines `reference` holds
+  TrackReference reference;
 };
+
+/// As reconstruct does it, so that the points are those of the recorded run.
+template <class T>
+void extract(ImageView<T> image, const ExtractionOptions& options, std::int64_t frame, Memory& memory) {
+  const std::int64_t key_frame = frame - frame % kTrackedFrames;
+  if (!options.track || frame == key_frame || key_frame != memory.key_frame) {
+    extract_stripes(image, options, memory.workspace, memory.result);
+    if (frame != key_frame) return;
+    memory.key_frame = frame;
+    memory.reference = reference_of(memory.workspace, memory.result, image);
+    return;
+  }
+  track_stripes(image, options, memory.reference, memory.workspace, memory.result);
+}
 
 double median_sigma(const Profile& profile) {
   if (profile.points.empty()) return 0;
@@ -40,7 +57,7 @@ void measure(const LiveJob& job, Memory& memory, LiveMeasurement& measured) {
                       fmt::format("sends {} x {} px but the rig's camera has {} x {} px", image.width,
                                   image.height, camera.width, camera.height),
                       "set the camera as it was calibrated (aravis: region=X,Y,WIDTH,HEIGHT)");
-        extract_stripes(image.view(), job.extraction, memory.workspace, memory.result);
+        extract(image.view(), job.extraction, measured.frame.frame, memory);
       },
       measured.frame.image);
   measured.lines = static_cast<int>(memory.result.stripes.size());

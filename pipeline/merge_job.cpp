@@ -101,15 +101,6 @@ void refuse_other_origins(const std::vector<Part>& parts) {
                   "reconstruct the parts from one recording, whose travel table or poses decide it");
 }
 
-void copy_content(const Part& part, ResumableFile& out) {
-  std::ifstream in(part.file, std::ios::binary);
-  in.seekg(static_cast<std::streamoff>(part.content_at));
-  std::vector<char> block(std::size_t{1} << 20);
-  while (in.read(block.data(), static_cast<std::streamsize>(block.size())), in.gcount() > 0)
-    out.append({block.data(), static_cast<std::size_t>(in.gcount())});
-  if (in.bad()) throw Error(part.file.string(), "cannot be read to its end", "check the disk");
-}
-
 std::vector<Part> read_parts(const MergeJob& job, bool table, CloudFormat format) {
   std::vector<Part> parts;
   for (const fs::path& file : job.parts) {
@@ -141,7 +132,7 @@ MergeResult merge(const MergeJob& job) {
   ResumableFile out(job.output, table ? std::string(kProfilesHeader)
                                       : cloud_header(format, result.num_points, parts.front().origin));
   try {
-    for (const Part& part : parts) copy_content(part, out);
+    for (const Part& part : parts) out.append_file(part.file, part.content_at);
     out.commit();
   } catch (...) {
     out.discard();

@@ -16,6 +16,7 @@
 #include "io/output_guard.h"
 #include "io/rig_file.h"
 #include "pipeline/camera_recorders.h"
+#include "pipeline/record_frames.h"
 #include "pipeline/recording.h"
 #include "pipeline/run_record.h"
 #include "pipeline/scan_output.h"
@@ -112,7 +113,7 @@ ScanInput scan_input(const Run& run, const ScanOutput& output, const std::stop_t
   input.before = earlier_part(run, output.tally());
   input.strict = run.job.strict;
   input.stop = stop;
-  input.read = [&](std::int64_t frame, int sensor) { return recording.read(frame, sensor); };
+  input.read = [&](std::int64_t frame, int sensor) { return recording.look(frame, sensor); };
   input.position = [&](std::int64_t frame) { return recording.position(frame); };
   input.recorded = [&](std::int64_t frame) { return recording.recorded(frame); };
   input.encode = [&](ScannedFrame& frame) { output.encode(frame); };
@@ -267,14 +268,6 @@ std::string why_not_usable(const ReconstructResult& result) {
   return result.summary.points == 0 ? why_empty(result) : "";
 }
 
-/// Whether the recording has ended: the files are there for good, or `lightstripe record` says so.
-bool is_over(const ReconstructJob& job) {
-  return std::all_of(job.scan.frames.begin(), job.scan.frames.end(), [&](const auto& sensor) {
-    const fs::path note = (job.scan.folder / sensor.second).parent_path() / "record.yaml";
-    return fs::exists(note) && read_file(note).find("\nframes: ") != std::string::npos;
-  });
-}
-
 /// The first frame that has to wait: not all sensors or the travel have it yet, or it is the newest, which
 /// may still be written.
 std::int64_t ready_end(const Run& run, bool newest_too) {
@@ -328,7 +321,7 @@ Run scan_what_comes(const ReconstructJob& job, std::optional<ScanOutput>& output
   for (std::string why_not;;) {
     const auto begin = Clock::now();
     const bool stopped = stop.stop_requested(),
-               recorded = is_over(job);  // before the look: nothing comes after it
+               recorded = recording_is_over(job.scan);  // before the look: nothing comes after it
     const bool idle = job.idle_s > 0 && begin - last_news > std::chrono::duration<double>(job.idle_s);
     const bool last_look = stopped || recorded || idle;
     auto run = run_so_far(job, why_not);

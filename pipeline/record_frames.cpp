@@ -4,7 +4,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <fstream>
+#include <system_error>
 
 #include "core/error.h"
 #include "io/atomic_file.h"
@@ -72,7 +74,7 @@ void write_settings(const RecordJob& job, const RecordSummary& summary, bool ove
   if (over)
     text += fmt::format("frames: {}\nwhole: {}\nincomplete: {}\nlost: {}\nseconds: {:.3f}\n", summary.frames,
                         summary.whole, summary.incomplete, summary.lost, summary.seconds);
-  write_file(job.folder / "record.yaml", text);
+  write_file(PictureRecorder::beside(job.folder, "record.yaml"), text);
 }
 
 }  // namespace
@@ -99,9 +101,11 @@ RecordSummary record_frames(const RecordJob& job, const std::stop_token& stop,
   RecordSummary summary;
   summary.settings = source->settings();
   write_settings(job, summary, false);
-  GrowingTable frames(job.folder / "frames.csv", "frame,file,status,camera_ns,arrived_ns,encoder,reason\n");
+  GrowingTable frames(PictureRecorder::beside(job.folder, "frames.csv"),
+                      "frame,file,status,camera_ns,arrived_ns,encoder,reason\n");
   std::optional<GrowingTable> travel;
-  if (job.travel.any()) travel.emplace(job.folder / "travel.csv", "frame,travel_mm\n");
+  if (job.travel.any())
+    travel.emplace(PictureRecorder::beside(job.folder, "travel.csv"), "frame,travel_mm\n");
   TravelOfFrames travel_of(job.travel);
   const auto start = std::chrono::steady_clock::now();
   while (job.max_frames == 0 || summary.frames < job.max_frames) {
@@ -109,10 +113,15 @@ RecordSummary record_frames(const RecordJob& job, const std::stop_token& stop,
     if (job.max_seconds > 0 && summary.seconds >= job.max_seconds) break;
     const auto frame = source->next(stop);
     if (!frame) break;
-    if (frame->status == FrameStatus::kWhole) pictures.write(frame->frame, frame->image);
-    frames.add(row_of(*frame, pictures.name(frame->frame)));
-    if (const auto at = travel ? travel_of.at(*frame) : std::nullopt) {
-      std::string row = fmt::format("{},", frame->frame);
+    const std::string file = pictures.name(frame->frame);
+    const std::int64_t number = pictures.scan_number(frame->frame);
+    const bool whole = frame->status == FrameStatus::kWhole;
+    if (whole) pictures.write(frame->frame, frame->image);
+    frames.add(row_of(*frame, file));
+    const auto at = travel ? travel_of.at(*frame) : std::nullopt;
+    // Pages of one file are counted without the frames that are lost.
+    if (at && (whole || number == frame->frame)) {
+      std::string row = fmt::format("{},", number);
       append_decimals(row, *at, 6);
       travel->add(row + "\n");
     }
@@ -121,6 +130,26 @@ RecordSummary record_frames(const RecordJob& job, const std::stop_token& stop,
   }
   write_settings(job, summary, true);
   return summary;
+}
+
+namespace {
+
+/// What a recording leaves at its end, where it wrote these frames.
+fs::path note_of(const fs::path& frames) {
+  const bool pattern = frames.filename().string().find_first_of("*?") != std::string::npos;
+  std::error_code error;
+  if (!pattern && (PictureRecorder::is_one_file(frames) || fs::is_directory(frames, error)))
+    return PictureRecorder::beside(frames, "record.yaml");
+  return frames.parent_path() / "record.yaml";
+}
+
+}  // namespace
+
+bool recording_is_over(const Scan& scan) {
+  return std::all_of(scan.frames.begin(), scan.frames.end(), [&](const auto& sensor) {
+    const fs::path note = note_of(scan.folder / sensor.second);
+    return fs::exists(note) && read_file(note).find("\nframes: ") != std::string::npos;
+  });
 }
 
 }  // namespace lightstripe

@@ -11,6 +11,7 @@
 
 #include "io/live_source.h"
 #include "io/picture_recorder.h"
+#include "io/session_file.h"
 
 namespace lightstripe {
 
@@ -51,11 +52,15 @@ struct RecordSummary {
   std::string first_missing;  ///< "3 lost, 17 incomplete ...": the first of them
 };
 
-/// Writes DIR/0000000.pgm ... ; frames.csv with a row for every frame, also one that is lost or incomplete
-/// (it has no file, so that a scan keeps the others' places); travel.csv where the travel is known;
-/// record.yaml with source, exposure and gain. Ends by the source, the limits or the stop; an Error where the
-/// disk is full or the camera gone, and what was recorded stays usable.
+/// Writes DIR/0000000.pgm ..., or the pages of one growing FILE.tif (with FILE.frames.csv and so on beside
+/// it; travel by pages); frames.csv with a row for every frame, also one that is lost or incomplete (it has
+/// no file, so that a scan keeps the others' places); travel.csv where the travel is known; record.yaml with
+/// source, exposure and gain. Ends by the source, the limits or the stop; an Error where the disk is full or
+/// the camera gone, and what was recorded stays usable.
 RecordSummary record_frames(const RecordJob& job, const std::stop_token& stop,
                             const std::function<void(const RecordSummary&)>& progress);
+
+/// Whether the scan's frames are there for good: each sensor's `lightstripe record` says that it has ended.
+bool recording_is_over(const Scan& scan);
 
 }  // namespace lightstripe

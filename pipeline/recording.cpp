@@ -170,14 +170,26 @@ void Recording::refuse_other_size(const std::string& scan_file) const {
   }
 }
 
-std::optional<GreyImage> Recording::read(std::int64_t frame, int sensor) const {
+const FrameSource* Recording::source_of(std::int64_t frame, int sensor, std::int64_t& index) const {
   const auto& source = sources_[static_cast<std::size_t>(sensor)];
-  if (!source) return std::nullopt;
-  const std::int32_t index = map_.index_of(static_cast<std::size_t>(sensor), frame);
+  if (!source) return nullptr;
+  index = map_.index_of(static_cast<std::size_t>(sensor), frame);
   if (index < 0)
     throw Error(fmt::format("{}, frame {}", rig_.sensors[static_cast<std::size_t>(sensor)].name, frame),
                 "its picture is missing", "look for the file, or scan without it");
-  return source->read(index);
+  return source.get();
+}
+
+std::optional<GreyImage> Recording::read(std::int64_t frame, int sensor) const {
+  std::int64_t index = 0;
+  const FrameSource* source = source_of(frame, sensor, index);
+  return source == nullptr ? std::nullopt : std::optional(source->read(index));
+}
+
+std::optional<Picture> Recording::look(std::int64_t frame, int sensor) const {
+  std::int64_t index = 0;
+  const FrameSource* source = source_of(frame, sensor, index);
+  return source == nullptr ? std::nullopt : std::optional(source->look(index));
 }
 
 std::optional<FramePosition> Recording::position(std::int64_t frame) const {

@@ -31,6 +31,8 @@ class Recording {
 
   /// The picture; nothing where the scan names none for this sensor. An Error where it is missing or damaged.
   std::optional<GreyImage> read(std::int64_t frame, int sensor) const;
+  /// The same without a copy where the picture's pixels lie in its file as they are needed.
+  std::optional<Picture> look(std::int64_t frame, int sensor) const;
   std::optional<FramePosition> position(std::int64_t frame) const;
   /// Whether a picture or a row of the travel table speaks of this frame.
   bool recorded(std::int64_t frame) const;
@@ -50,6 +52,8 @@ class Recording {
   Eigen::Vector3d cloud_origin() const;
 
  private:
+  /// Where the picture is; null: the scan names none for this sensor.
+  const FrameSource* source_of(std::int64_t frame, int sensor, std::int64_t& index) const;
   void open_sensors(const Scan& scan, const std::string& scan_file);
   void read_positions(const Scan& scan, const std::string& scan_file);
   void refuse_other_size(const std::string& scan_file) const;

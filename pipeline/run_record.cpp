@@ -13,6 +13,7 @@
 #include "core/error.h"
 #include "io/atomic_file.h"
 #include "io/yaml_binding.h"
+#include "parallel/parallel.h"
 
 namespace lightstripe {
 namespace {
@@ -63,8 +64,11 @@ std::string indented(const std::string& text) {
 void write_run_record(const std::filesystem::path& output, const std::string& command,
                       const std::vector<std::filesystem::path>& inputs, const std::string& options) {
   std::string text = fmt::format("lightstripe: {}\ncommand: {}\ninputs:\n", LIGHTSTRIPE_VERSION, command);
-  for (const auto& input : inputs) {
-    const InputFacts facts = facts_of(input);
+  std::vector<InputFacts> all(inputs.size());
+  parallel_for(inputs.size(), 0, [&](std::size_t i) { all[i] = facts_of(inputs[i]); });
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    const auto& input = inputs[i];
+    const InputFacts& facts = all[i];
     text += fmt::format("  - {{file: {}, bytes: {}, sha256: \"{}\"}}\n", yaml_text(input.string()),
                         facts.bytes, facts.sha256);
   }

@@ -8,8 +8,10 @@
 #include <exception>
 
 #include "core/error.h"
+#include "extraction/track/track_stripes.h"
 #include "extraction/workspace.h"
 #include "parallel/parallel.h"
+#include "reconstruct/key_frames.h"
 
 namespace lightstripe {
 namespace {
@@ -33,8 +35,8 @@ struct FrameInFlight {
   FrameOutcome outcome;
 };
 
-void check_size(const GreyImage& image, const Sensor& sensor, std::int64_t frame) {
-  const auto [width, height] = std::visit([](const auto& i) { return std::pair(i.width, i.height); }, image);
+void check_size(const Picture& picture, const Sensor& sensor, std::int64_t frame) {
+  const auto [width, height] = picture.visit([](const auto& i) { return std::pair(i.width, i.height); });
   if (width == sensor.camera.width && height == sensor.camera.height) return;
   throw Error(fmt::format("{}, frame {}", sensor.name, frame),
               fmt::format("the picture has {} x {} px but the rig's camera {} x {} px", width, height,
@@ -64,38 +66,50 @@ std::optional<PlacedFrame> next_placed_frame(const ScanInput& input, std::int64_
   return std::nullopt;
 }
 
-/// The picture, or nothing where it was skipped or the sensor has none.
-std::optional<GreyImage> usable_picture(const ScanInput& input, const Rig& rig, int sensor,
-                                        ScannedFrame& out) {
+/// picture -> its stripes, of a frame and sensor.
+using PictureUse = std::function<std::vector<Stripe>(const Picture&)>;
+/// What a sensor shows in a frame; called from several threads.
+using FrameExtractor = std::function<SensorStripes(std::int64_t frame, int sensor)>;
+
+/// Reads a picture and uses it; nothing where the sensor has none.
+SensorStripes read_and_use(const ScanInput& input, const Rig& rig, std::int64_t frame, int sensor,
+                           const PictureUse& use) {
+  SensorStripes found;
+  std::optional<Picture> picture;
   try {
-    auto image = input.read(out.profile.frame, sensor);
-    if (image) check_size(*image, rig.sensors[static_cast<std::size_t>(sensor)], out.profile.frame);
-    return image;
+    picture = input.read(frame, sensor);
+    if (picture) check_size(*picture, rig.sensors[static_cast<std::size_t>(sensor)], frame);
   } catch (const Error& error) {
-    if (input.strict) throw;
-    out.skipped.push_back({sensor, error.what()});
-    return std::nullopt;
+    found.unreadable = std::current_exception();
+    found.reason = error.what();
+    return found;
   }
+  if (!picture) return found;
+  found.has_picture = true;
+  found.stripes = use(*picture);
+  return found;
 }
 
 ScannedFrame scan_frame(const PlacedFrame& placed, const ScanInput& input, const Rig& rig,
-                        const StripeExtractor& extract) {
+                        const FrameExtractor& extract) {
   ScannedFrame out;
   out.profile.frame = placed.frame;
   out.profile.travel = placed.position.travel;
   out.travel_interpolated = placed.position.interpolated;
   for (int sensor = 0; sensor < static_cast<int>(rig.sensors.size()); ++sensor) {
-    const auto image = usable_picture(input, rig, sensor, out);
-    if (!image) continue;
+    const SensorStripes found = extract(placed.frame, sensor);
+    if (found.unreadable && input.strict) std::rethrow_exception(found.unreadable);
+    if (found.unreadable) out.skipped.push_back({sensor, found.reason});
+    if (!found.has_picture) continue;
     ++out.pictures;
-    triangulate_stripes(extract(*image), rig, sensor, placed.position, out.profile);
+    triangulate_stripes(found.stripes, rig, sensor, placed.position, out.profile);
   }
   if (input.encode) input.encode(out);
   return out;
 }
 
 FrameOutcome outcome_of_frame(const PlacedFrame& placed, const ScanInput& input, const Rig& rig,
-                              const StripeExtractor& extract) {
+                              const FrameExtractor& extract) {
   if (placed.error) return {{}, placed.error};
   try {
     return {scan_frame(placed, input, rig, extract), nullptr};
@@ -127,10 +141,8 @@ std::exception_ptr hand_on(FrameOutcome& outcome, const FrameSink& sink, ScanCou
   return nullptr;
 }
 
-}  // namespace
-
-ScanSummary scan_profiles(const ScanInput& input, const Rig& rig, const StripeExtractor& extract, int threads,
-                          const FrameSink& sink) {
+ScanSummary scan_frames(const ScanInput& input, const Rig& rig, const FrameExtractor& extract, int threads,
+                        const FrameSink& sink) {
   ScanSummary summary = input.before;
   std::int64_t next = input.first_frame;
   std::atomic<bool> failed = false;
@@ -157,24 +169,87 @@ ScanSummary scan_profiles(const ScanInput& input, const Rig& rig, const StripeEx
   return summary;
 }
 
+/// Memory of one thread.
+struct Memory {
+  ExtractionWorkspace workspace;
+  ExtractionResult result;
+};
+
+/// Frames that are searched by their key frames.
+class TrackedScan {
+ public:
+  TrackedScan(const ScanInput& input, const Rig& rig, const ExtractionOptions& options)
+      : input_(input), rig_(rig), options_(options) {}
+
+  SensorStripes operator()(std::int64_t frame, int sensor) {
+    const std::int64_t key_frame = frame - ((frame % kTrackedFrames) + kTrackedFrames) % kTrackedFrames;
+    const bool recorded = !input_.recorded || input_.recorded(key_frame);
+    const auto key = recorded ? keys_.get(key_frame, sensor, [&] { return key_of(key_frame, sensor); })
+                              : std::make_shared<const KeyFrame>();
+    if (key->failure) std::rethrow_exception(key->failure);
+    if (frame == key_frame && recorded) return key->found;
+    return read_and_use(input_, rig_, frame, sensor, [&](const Picture& picture) {
+      return memories_.with([&](Memory& memory) {
+        picture.visit([&](const auto& view) {
+          track_stripes(view, options_, key->reference, memory.workspace, memory.result);
+        });
+        return memory.result.stripes;
+      });
+    });
+  }
+
+ private:
+  KeyFrame key_of(std::int64_t frame, int sensor) {
+    KeyFrame key;
+    key.found = read_and_use(input_, rig_, frame, sensor, [&](const Picture& picture) {
+      return memories_.with([&](Memory& memory) {
+        picture.visit([&](const auto& view) {
+          extract_stripes(view, options_, memory.workspace, memory.result);
+          key.reference = reference_of(memory.workspace, memory.result, view);
+        });
+        return memory.result.stripes;
+      });
+    });
+    return key;
+  }
+
+  const ScanInput& input_;
+  const Rig& rig_;
+  const ExtractionOptions& options_;
+  WorkspacePool<Memory> memories_;
+  KeyFrames keys_;
+};
+
+}  // namespace
+
+ScanSummary scan_profiles(const ScanInput& input, const Rig& rig, const StripeExtractor& extract, int threads,
+                          const FrameSink& sink) {
+  const auto stripes = [&](std::int64_t frame, int sensor) {
+    return read_and_use(input, rig, frame, sensor,
+                        [&](const Picture& picture) { return extract(picture.image()); });
+  };
+  return scan_frames(input, rig, stripes, threads, sink);
+}
+
 ScanSummary scan_profiles(const ScanInput& input, const Rig& rig, const ExtractionOptions& extraction,
                           int threads, const FrameSink& sink) {
-  struct Memory {
-    ExtractionWorkspace workspace;
-    ExtractionResult result;
-  };
+  if (extraction.track) {
+    TrackedScan tracked(input, rig, extraction);
+    return scan_frames(
+        input, rig, [&](std::int64_t frame, int sensor) { return tracked(frame, sensor); }, threads, sink);
+  }
   WorkspacePool<Memory> memories;
-  const auto extract = [&](const GreyImage& image) {
+  const auto extract = [&](const Picture& picture) {
     return memories.with([&](Memory& memory) {
-      std::visit(
-          [&](const auto& pixels) {
-            extract_stripes(pixels.view(), extraction, memory.workspace, memory.result);
-          },
-          image);
+      picture.visit(
+          [&](const auto& view) { extract_stripes(view, extraction, memory.workspace, memory.result); });
       return memory.result.stripes;
     });
   };
-  return scan_profiles(input, rig, StripeExtractor(extract), threads, sink);
+  const auto stripes = [&](std::int64_t frame, int sensor) {
+    return read_and_use(input, rig, frame, sensor, extract);
+  };
+  return scan_frames(input, rig, stripes, threads, sink);
 }
 
 }  // namespace lightstripe

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "core/image.h"
+#include "core/picture.h"
 #include "core/profile.h"
 #include "core/rig.h"
 #include "extraction/extract_stripes.h"
@@ -57,7 +57,7 @@ struct ScanInput {
   std::int64_t end_frame = 0;  ///< the first one that is not scanned
   /// The picture of one rig sensor in one frame (called from several threads); nothing where this sensor has
   /// none in the whole scan. An Error skips this picture only, unless `strict`.
-  std::function<std::optional<GreyImage>(std::int64_t frame, int sensor)> read;
+  std::function<std::optional<Picture>(std::int64_t frame, int sensor)> read;
   /// Where the rig stood; nothing where it is not known (the frame is left out and counted).
   /// Called in order of frames, from one thread at a time.
   std::function<std::optional<FramePosition>(std::int64_t frame)> position;
@@ -87,7 +87,9 @@ using FrameSink = std::function<void(const ScannedFrame&)>;
 ScanSummary scan_profiles(const ScanInput& input, const Rig& rig, const StripeExtractor& extract, int threads,
                           const FrameSink& sink);
 
-/// The same with extract_stripes(), which keeps one workspace a thread.
+/// The same with extract_stripes(), which keeps one workspace a thread; where `extraction.track` is set with
+/// track_stripes() by the key frame of each frame (its number down to a multiple of kTrackedFrames), which is
+/// read also where it lies before `first_frame`: so parts of a scan give the bits of the whole.
 ScanSummary scan_profiles(const ScanInput& input, const Rig& rig, const ExtractionOptions& extraction,
                           int threads, const FrameSink& sink);
 

@@ -11,7 +11,7 @@
 namespace lightstripe {
 namespace {
 
-/// No line begins with fewer labels left than a long one uses.
+/// Start no new line once fewer labels are left than one long line may need.
 constexpr std::uint16_t kLastLabel = 60000;
 
 /// Cells of the mask, about as large as the kernel's scale: fine enough for stripes of that scale, and no

@@ -20,6 +20,14 @@ struct FollowTuning {
   /// Octaves: no line is followed again farther off than this from the scale of
   /// its seed.
   double farthest_scale = 2.0;
+  /// Of the strength along a line: up to a grain of `fine_grain` its scale is the stripe's width, from
+  /// `coarse_grain` on (speckle of contrast 0.3 and more) twice that, which lowers the scatter by half and
+  /// holds the line together over dark grains.
+  double fine_grain = 0.05, coarse_grain = 0.13;
+  /// Sigma, px: below it a line's strength varies with its place between the pixels, which is no grain.
+  double thinnest_grained = 1.3;
+  /// Of the brightest pixel: from here on a point may be clipped, and its strength tells nothing of grain.
+  double clipped_level = 0.96;
   /// Of the length before: a line followed again must keep so much, else the
   /// first try stands.
   double kept_length = 0.8;

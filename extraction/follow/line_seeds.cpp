@@ -46,6 +46,41 @@ std::vector<T>& zeros_of(SeedWorkspace& w) {
     return w.zeros16;
 }
 
+/// The columns of one row that are looked at: the windows', or all.
+std::span<const ColumnSpan> spans_of_row(const SeedRule& rule, int y, const ColumnSpan& whole) {
+  return rule.windows != nullptr ? rule.windows->spans(y << rule.binned) : std::span(&whole, 1);
+}
+
+/// A part [begin, end) of a row with what the vectors need on both sides of it.
+ColumnSpan with_surroundings(const ColumnSpan& span, int reach, int width) {
+  constexpr int kVector = 64;  // shorter rows would go pixel by pixel
+  const int begin = std::max(0, span.begin - reach);
+  return {begin, std::min(width, std::max(span.end + reach, begin + kVector + 2 * reach))};
+}
+
+/// The candidates of one span of a row, in reading order.
+template <class T, class Add>
+void candidates_of_span(const ScanRow<T>& row, int width, const ScanRule<T>& scan, const ColumnSpan& span,
+                        const ColumnPattern& pattern, std::vector<std::uint64_t>& masks, const Add& add) {
+  const int left = std::min(std::min(scan.reach, width), span.end),
+            right = std::max(std::max(width - scan.reach, std::min(scan.reach, width)), span.begin);
+  for (int x = pattern.first_from(span.begin); x < left; x += pattern.step) add(x);
+  const ColumnSpan seen = with_surroundings(span, scan.reach, width);
+  const ScanRow<T> part{row.centre + seen.begin, row.above + seen.begin, row.below + seen.begin};
+  const int length = seen.end - seen.begin;
+  // The pattern counts from the row's begin, the masks from the part's.
+  const ColumnPattern shifted{pattern.step,
+                              (pattern.offset - seen.begin % pattern.step + pattern.step) % pattern.step};
+  if (mark_candidates(part, length, scan, masks.data()))
+    for (int word = 0; word < (length + 63) / 64; ++word)
+      for (std::uint64_t bits = masks[static_cast<std::size_t>(word)] & shifted.bits(); bits != 0;
+           bits &= bits - 1) {
+        const int x = seen.begin + word * 64 + std::countr_zero(bits);
+        if (x >= span.begin && x < span.end) add(x);
+      }
+  for (int x = pattern.first_from(right); x < span.end; x += pattern.step) add(x);
+}
+
 template <class T>
 void collect(ImageView<T> image, const SeedRule& rule, SeedWorkspace& w) {
   const ScanRule<T> scan{
@@ -58,7 +93,9 @@ void collect(ImageView<T> image, const SeedRule& rule, SeedWorkspace& w) {
   zeros.assign(static_cast<std::size_t>(image.width), T{});
   w.candidate_masks.resize(static_cast<std::size_t>((image.width + 63) / 64));
   w.found.clear();
-  const int step = rule.step > 0 ? rule.step : row_step(rule.sigma), edge = std::min(scan.reach, image.width);
+  const int step = rule.step > 0 ? rule.step : row_step(rule.sigma);
+  const ColumnSpan whole{0, image.width};
+  const int shift = rule.windows != nullptr ? rule.binned : 0;
   for (int y = step / 2, number = 0; y < image.height; y += step, ++number) {
     const ScanRow<T> row{image.row(y), y >= scan.reach ? image.row(y - scan.reach) : zeros.data(),
                          y + scan.reach < image.height ? image.row(y + scan.reach) : zeros.data()};
@@ -68,14 +105,10 @@ void collect(ImageView<T> image, const SeedRule& rule, SeedWorkspace& w) {
       const auto rank = static_cast<std::int32_t>((static_cast<std::uint64_t>(contrast) * scale) >> 16);
       w.found.push_back({x, y, std::min(rank, 255), row.centre[x] >= foreground});
     };
-    const ColumnPattern pattern = column_pattern(step, number);
-    for (int x = pattern.offset; x < edge; x += pattern.step) add(x);
-    if (mark_candidates(row, image.width, scan, w.candidate_masks.data()))
-      for (std::size_t word = 0; word < w.candidate_masks.size(); ++word)
-        for (std::uint64_t bits = w.candidate_masks[word] & pattern.bits(); bits != 0; bits &= bits - 1)
-          add(static_cast<int>(word * 64) + std::countr_zero(bits));
-    const int right = std::max(image.width - scan.reach, edge);
-    for (int x = pattern.first_from(right); x < image.width; x += pattern.step) add(x);
+    for (const ColumnSpan& span : spans_of_row(rule, y, whole)) {
+      const ColumnSpan here{span.begin >> shift, std::min(span.end >> shift, image.width)};
+      candidates_of_span(row, image.width, scan, here, column_pattern(step, number), w.candidate_masks, add);
+    }
   }
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/image.h"
+#include "extraction/track/search_windows.h"
 
 namespace lightstripe {
 
@@ -25,6 +26,8 @@ struct SeedRule {
   double brightest = 1;   ///< the image's largest grey level
   int reach = 0;          ///< px to the surroundings on both sides; 0: as suits `sigma`
   int step = 0;           ///< rows and columns between those that are searched; 0: as suits `sigma`
+  const SearchWindows* windows = nullptr;  ///< nothing else is looked at; null: everything
+  int binned = 0;  ///< 2^binned pixels of the windows are one of the image that is searched
 };
 
 struct SeedWorkspace {

@@ -35,6 +35,10 @@ void collect_level(const OwnScaleSearch<T>& search, int level, SeedWorkspace& se
   rule.brightest = search.brightest;
   rule.reach = kSeedReach;
   rule.step = level == 0 ? 2 : 1;
+  if (search.windowed != nullptr) {
+    rule.windows = search.windowed->seeds;
+    rule.binned = level;
+  }
   find_seeds(w.pyramid.levels[k], rule, seeds);
   const int half = (1 << level) / 2;
   for (const LineSeed& s : seeds.sorted)
@@ -84,6 +88,8 @@ class LineFinder {
     return w_.blocked[static_cast<std::size_t>(y / 4) * columns + static_cast<std::size_t>(x / 4)];
   }
   std::optional<Followed> at_own_scale(const Followed& line, int x, int y);
+  double broader_in_grain(const Followed& line, double width_scale);
+  bool is_clipped(std::span<const StripePoint> points) const;
   double length(const Followed& line) const { return static_cast<double>(line.range.size()); }
   double height(const Followed& line) const;
   bool runs_beside_another(const Followed& line) const;
@@ -105,10 +111,14 @@ class LineFinder {
 
 template <class T>
 void LineFinder<T>::prepare() {
-  build_pyramid(search_.image, search_.noise, w_.pyramid);
+  if (search_.windowed != nullptr)
+    build_pyramid(search_.image, search_.windowed->noise, *search_.windowed->seen, w_.pyramid);
+  else
+    build_pyramid(search_.image, search_.noise, w_.pyramid);
   w_.found.clear();
   for (int level = 0; level < w_.pyramid.count; ++level) {
-    collect_level(search_, level, following_.seeds, w_);
+    if (search_.windowed == nullptr || level <= search_.windowed->coarsest)
+      collect_level(search_, level, following_.seeds, w_);
     const ImageView<T> image = w_.pyramid.levels[static_cast<std::size_t>(level)];
     w_.tried[static_cast<std::size_t>(level)].assign(
         static_cast<std::size_t>(image.width / 4 + 1) * static_cast<std::size_t>(image.height / 4 + 1), 0);
@@ -184,6 +194,34 @@ void LineFinder<T>::take_back(const Followed& line) {
   following_.mask.relabel(line.checkpoint, line.first_label, labels_.current, ExclusionMask::kFree);
 }
 
+/// A good part of the points lies on the picture's brightest pixels.
+template <class T>
+bool LineFinder<T>::is_clipped(std::span<const StripePoint> points) const {
+  std::size_t clipped = 0;
+  for (const StripePoint& p : points) {
+    const int x = std::clamp(static_cast<int>(p.x + 0.5), 0, search_.image.width - 1),
+              y = std::clamp(static_cast<int>(p.y + 0.5), 0, search_.image.height - 1);
+    clipped += search_.image(x, y) >= search_.tuning.clipped_level * search_.brightest ? 1U : 0U;
+  }
+  return 4 * clipped > points.size();
+}
+
+/// Times the scale that the width asks for. A kernel of the stripe's own width is best in the camera's noise,
+/// which it takes in from beside the stripe; the grain of speckle is in the stripe's own light, and the more
+/// of it a kernel averages the better.
+template <class T>
+double LineFinder<T>::broader_in_grain(const Followed& line, double width_scale) {
+  const ScaleGroup& g = groups_.all[line.group];
+  const std::span<const StripePoint> points(g.lines.points.data() + line.range.begin, line.range.size());
+  const double bin = 1 << g.level, noise = w_.pyramid.noise[static_cast<std::size_t>(g.level)] *
+                                           g.binned_kernels->curvature_gain / (bin * bin);
+  const FollowTuning& t = search_.tuning;
+  // The strength of a clipped bar varies with its outline, that of a thin line with its place between pixels.
+  if (width_scale < t.thinnest_grained || is_clipped(points)) return 1;
+  const double grain = grain_of_line(points, g.kernels->sigma, noise, w_.values);
+  return std::clamp(1 + (grain - t.fine_grain) / (t.coarse_grain - t.fine_grain), 1.0, 2.0);
+}
+
 /// The line followed again at its own scale, where that differs and does not
 /// lose much of it.
 template <class T>
@@ -193,8 +231,9 @@ std::optional<typename LineFinder<T>::Followed> LineFinder<T>::at_own_scale(cons
   const std::span<const StripePoint> points(lines.points.data() + line.range.begin, line.range.size());
   const double used = groups_.all[line.group].kernels->sigma;
   const double farthest = std::exp2(search_.tuning.farthest_scale);
+  const double width_scale = scale_of_line(w_.pyramid, kernels_, points, used);
   const double own =
-      std::clamp(scale_of_line(w_.pyramid, kernels_, points, used), used / farthest, used * farthest);
+      std::clamp(broader_in_grain(line, width_scale) * width_scale, used / farthest, used * farthest);
   const bool first_of_its_scale = lines.lines.size() == 1;
   const double tolerance = first_of_its_scale ? search_.tuning.first_scale : search_.tuning.refollow_scale;
   if (std::abs(std::log2(own / used)) <= tolerance) return line;
@@ -274,7 +313,8 @@ void LineFinder<T>::keep_or_reject(const Followed& line, int seed_level) {
   const double least = search_.least_widths * full_width_of(groups_.all[line.group].kernels->sigma);
   if (length(line) >= search_.tuning.least_length * least && !runs_beside_another(line)) {
     ++lines_;
-    if (is_edge(line))
+    // An edge or a crumb: the filter of whole lines drops nearly all of them.
+    if (is_edge(line) || length(line) < least)
       futile_ += search_.tuning.futile_line + length(line) / groups_.all[line.group].kernels->sigma;
     block(line, search_.tuning.blocked_by_line, 0);
     strongest_ = std::max(strongest_, height(line) * std::min(1.0, length(line) / (3 * least)));
@@ -326,7 +366,7 @@ void LineFinder<T>::try_seed(const ScaleSeed& seed) {
 
 template <class T>
 void LineFinder<T>::run() {
-  constexpr std::uint16_t kLastLabel = 60000;  // no line begins with fewer labels left than a long one uses
+  constexpr std::uint16_t kLastLabel = 60000;  // start no new line with fewer labels left than one needs
   prepare();
   const double most_futile = search_.tuning.futile_points * (search_.image.width + search_.image.height);
   for (const ScaleSeed& seed : w_.seeds) {

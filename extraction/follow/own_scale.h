@@ -49,6 +49,15 @@ struct OwnScaleWorkspace {
   /// Cells of 4 x 4 pixels beside lines that were followed; bit k: no seed of level k is tried there.
   std::vector<std::uint8_t> blocked;
   std::vector<StripePoint> binned_points;
+  std::vector<float> values;
+};
+
+/// A search in parts of the image only.
+struct WindowedSearch {
+  const SearchWindows* seeds = nullptr;  ///< where lines begin
+  const SearchWindows* seen = nullptr;   ///< these and their surroundings, which coarse kernels look at
+  LevelNoise noise{};
+  int coarsest = 0;  ///< level of the pyramid in which lines begin
 };
 
 /// What is asked of the lines, and how the image is.
@@ -60,6 +69,7 @@ struct OwnScaleSearch {
   double least_widths = 5;  ///< shortest line, in full stripe widths
   int stop_after = 0;       ///< lines; 0 = all
   FollowTuning tuning;
+  const WindowedSearch* windowed = nullptr;  ///< null: the whole image
 };
 
 /// Makes the limits for the kernels of one scale.

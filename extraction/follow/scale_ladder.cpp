@@ -19,17 +19,31 @@ constexpr double kNoisyAlong = 2.5;    // standard deviations that noise may add
 constexpr double kOwnMaximum = 0.5;    // of the largest one: a narrower maximum as high as this is the line's
 constexpr std::size_t kSamples = 16;   // points of a line that are looked at
 
+/// Columns [begin, end) of a row of the coarser image.
+template <class T>
+void halve_row(const T* a, const T* b, int begin, int end, T* out) {
+  for (int x = begin; x < end; ++x)
+    out[x] = static_cast<T>((std::uint32_t{a[2 * x]} + a[2 * x + 1] + b[2 * x] + b[2 * x + 1] + 2) / 4);
+}
+
 template <class T>
 void halve(ImageView<T> from, Image<T>& to) {
   to.width = from.width / 2;
   to.height = from.height / 2;
   to.pixels.resize(static_cast<std::size_t>(to.width) * static_cast<std::size_t>(to.height));
-  for (int y = 0; y < to.height; ++y) {
-    const T *a = from.row(2 * y), *b = from.row(2 * y + 1);
-    T* out = to.row(y);
-    for (int x = 0; x < to.width; ++x)
-      out[x] = static_cast<T>((std::uint32_t{a[2 * x]} + a[2 * x + 1] + b[2 * x] + b[2 * x + 1] + 2) / 4);
-  }
+  for (int y = 0; y < to.height; ++y) halve_row(from.row(2 * y), from.row(2 * y + 1), 0, to.width, to.row(y));
+}
+
+template <class T>
+void halve(ImageView<T> from, const SearchWindows& windows, int level, Image<T>& to) {
+  to.width = from.width / 2;
+  to.height = from.height / 2;
+  // Black, not what an earlier image left there.
+  to.pixels.assign(static_cast<std::size_t>(to.width) * static_cast<std::size_t>(to.height), T{});
+  for (int y = 0; y < to.height; ++y)
+    for (const ColumnSpan& span : windows.spans(y << level))
+      halve_row(from.row(2 * y), from.row(2 * y + 1), span.begin >> level,
+                std::min(span.end >> level, to.width), to.row(y));
 }
 
 /// A place of the image in one level's pixels.
@@ -141,6 +155,22 @@ void build_pyramid(ImageView<T> image, double noise, ImagePyramid<T>& pyramid) {
 }
 
 template <class T>
+void build_pyramid(ImageView<T> image, const LevelNoise& noise, const SearchWindows& windows,
+                   ImagePyramid<T>& pyramid) {
+  pyramid.levels[0] = image;
+  pyramid.noise[0] = noise[0];
+  pyramid.count = 1;
+  for (std::size_t k = 1; k < ImagePyramid<T>::kMostLevels; ++k) {
+    const ImageView<T> finer = pyramid.levels[k - 1];
+    if (std::min(finer.width, finer.height) < 2 * kSmallestLevel) break;
+    halve(finer, windows, static_cast<int>(k), pyramid.binned[k - 1]);
+    pyramid.levels[k] = pyramid.binned[k - 1].view();
+    pyramid.noise[k] = noise[k];
+    ++pyramid.count;
+  }
+}
+
+template <class T>
 std::optional<ScaledRidge> best_scale(ImagePyramid<T>& pyramid, KernelCache& kernels, double x, double y,
                                       int first, int last) {
   std::array<double, ScaleLadder::kRungs + 2> normalised{};  // with a 0 at both ends
@@ -180,8 +210,35 @@ double scale_of_line(ImagePyramid<T>& pyramid, KernelCache& kernels, std::span<c
   return ScaleLadder::sigma(rung + peak_offset(response(rung - 1), response(rung), response(rung + 1)));
 }
 
+double grain_of_line(std::span<const StripePoint> points, double sigma, double noise,
+                     std::vector<float>& scratch) {
+  constexpr std::size_t kLeast = 24, kEnough = 300;
+  constexpr double kToSigma = 1.4826 / 2.449489743;  // of a normal; second differences have sqrt(6) sigma
+  constexpr double kClear = 1.5;                     // times the noise
+  const auto lag = static_cast<std::size_t>(std::lround(std::max(1.0, 2.5 * sigma)));
+  if (points.size() < 2 * lag + kLeast) return 0;
+  const std::size_t step = 1 + points.size() / kEnough;
+  scratch.clear();
+  double strength = 0;
+  for (std::size_t i = 0; i + 2 * lag < points.size(); i += step) {
+    const double middle = points[i + lag].strength;
+    scratch.push_back(
+        static_cast<float>(std::abs(points[i].strength - 2 * middle + points[i + 2 * lag].strength)));
+    strength += middle;
+  }
+  strength /= static_cast<double>(scratch.size());
+  const auto middle = scratch.begin() + static_cast<std::ptrdiff_t>(scratch.size() / 2);
+  std::nth_element(scratch.begin(), middle, scratch.end());
+  const double seen = kToSigma * double{*middle};
+  return seen > kClear * noise ? std::sqrt(seen * seen - noise * noise) / strength : 0.0;
+}
+
 template void build_pyramid<std::uint8_t>(ImageView8, double, ImagePyramid<std::uint8_t>&);
 template void build_pyramid<std::uint16_t>(ImageView16, double, ImagePyramid<std::uint16_t>&);
+template void build_pyramid<std::uint8_t>(ImageView8, const LevelNoise&, const SearchWindows&,
+                                          ImagePyramid<std::uint8_t>&);
+template void build_pyramid<std::uint16_t>(ImageView16, const LevelNoise&, const SearchWindows&,
+                                           ImagePyramid<std::uint16_t>&);
 template std::optional<ScaledRidge> best_scale<std::uint8_t>(ImagePyramid<std::uint8_t>&, KernelCache&,
                                                              double, double, int, int);
 template std::optional<ScaledRidge> best_scale<std::uint16_t>(ImagePyramid<std::uint16_t>&, KernelCache&,

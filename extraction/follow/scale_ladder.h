@@ -15,6 +15,7 @@
 #include "core/image.h"
 #include "core/stripe.h"
 #include "extraction/kernels/kernels.h"
+#include "extraction/track/search_windows.h"
 
 namespace lightstripe {
 
@@ -45,6 +46,15 @@ struct ImagePyramid {
 template <class T>
 void build_pyramid(ImageView<T> image, double noise, ImagePyramid<T>& pyramid);
 
+/// Noise in each level of a pyramid, grey levels.
+using LevelNoise = std::array<double, ImagePyramid<std::uint8_t>::kMostLevels>;
+
+/// The same where only the windows are looked at: black elsewhere in the binned levels, and the levels' noise
+/// is given.
+template <class T>
+void build_pyramid(ImageView<T> image, const LevelNoise& noise, const SearchWindows& windows,
+                   ImagePyramid<T>& pyramid);
+
 /// The ladder of scales: half an octave from rung to rung.
 struct ScaleLadder {
   static constexpr int kRungs = 9;
@@ -68,5 +78,11 @@ std::optional<ScaledRidge> best_scale(ImagePyramid<T>& pyramid, KernelCache& ker
 template <class T>
 double scale_of_line(ImagePyramid<T>& pyramid, KernelCache& kernels, std::span<const StripePoint> points,
                      double sigma);
+
+/// How much the strength of a line varies from grain to grain, as a share of the strength, beyond what the
+/// camera's noise does: the median of second differences over 2.5 `sigma`, which squares of a board and
+/// slow changes do not touch. 0 where it does not stand out of `noise`, the standard deviation of strengths.
+double grain_of_line(std::span<const StripePoint> points, double sigma, double noise,
+                     std::vector<float>& scratch);
 
 }  // namespace lightstripe

@@ -8,16 +8,27 @@
 
 namespace lightstripe {
 
+int facts_thinning(int width, int height) {
+  constexpr double kEnoughPixels = 16000;
+  return std::max(1, static_cast<int>(static_cast<double>(width) * height / kEnoughPixels));
+}
+
+template <class T>
+NoiseEstimate noise_of(ImageView<T> image) {
+  const int thinning = facts_thinning(image.width, image.height);
+  return estimate_noise(image, thinning > 1 ? 4 * thinning : 1);
+}
+
 template <class T>
 ImageFacts look_at(ImageView<T> image) {
-  constexpr double kEnoughPixels = 16000;
-  const double pixels = static_cast<double>(image.width) * image.height;
-  const int thinning = std::max(1, static_cast<int>(pixels / kEnoughPixels));
   ImageFacts facts;
-  facts.histogram = compute_histogram(image, thinning);
-  facts.noise = estimate_noise(image, thinning > 1 ? 4 * thinning : 1);
+  facts.histogram = compute_histogram(image, facts_thinning(image.width, image.height));
+  facts.noise = noise_of(image);
   return facts;
 }
+
+template NoiseEstimate noise_of<std::uint8_t>(ImageView8);
+template NoiseEstimate noise_of<std::uint16_t>(ImageView16);
 
 template ImageFacts look_at<std::uint8_t>(ImageView8);
 template ImageFacts look_at<std::uint16_t>(ImageView16);

@@ -23,7 +23,13 @@ struct ImageFacts {
 template <class T>
 ImageFacts look_at(ImageView<T> image);
 
-/// Sets the thresholds by the chosen rule, and how they came about.
+/// How thin the statistics of an image of this size are.
+int facts_thinning(int width, int height);
+/// The noise as look_at() measures it.
+template <class T>
+NoiseEstimate noise_of(ImageView<T> image);
+
+/// Sets threshold_low/high by the chosen rule and records the intermediate levels.
 void choose_levels(const ImageFacts& facts, const ExtractionOptions& options, const ParsedOptions& parsed,
                    ExtractionResult& result);
 

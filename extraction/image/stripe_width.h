@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The lightstripe authors
 // SPDX-License-Identifier: Apache-2.0
-// How wide are the stripes of an image? For the scale of the kernels where nobody said.
+// Estimates the stripe width, which sets the kernel scale when the user gives none.
 #pragma once
 
 #include <optional>

@@ -38,15 +38,11 @@ std::array<double, kBins> smoothed(const Histogram& h, int reach) {
   return mean;
 }
 
-}  // namespace
-
 template <class T>
-Histogram compute_histogram(ImageView<T> image, int thinning) {
+Histogram count_levels(ImageView<T> image, int thinning, double largest) {
   Histogram h;
   if (image.empty()) return h;
-  for (int y = 0; y < image.height; ++y)
-    h.largest =
-        std::max<double>(h.largest, largest_pixel(image.row(y), static_cast<std::size_t>(image.width)));
+  h.largest = largest;
   int shift = 0;
   while ((static_cast<int>(h.largest) >> shift) >= kBins) ++shift;
   h.bin_width = 1 << shift;
@@ -66,8 +62,28 @@ Histogram compute_histogram(ImageView<T> image, int thinning) {
   return h;
 }
 
+}  // namespace
+
+template <class T>
+Histogram compute_histogram(ImageView<T> image, int thinning) {
+  double largest = 0;
+  for (int y = 0; y < image.height; ++y)
+    largest = std::max<double>(largest, largest_pixel(image.row(y), static_cast<std::size_t>(image.width)));
+  return count_levels(image, thinning, largest);
+}
+
+template <class T>
+Histogram compute_histogram(ImageView<T> image, int thinning, double largest) {
+  for_sampled_pieces(image, thinning, [&](const T* pixels, int length) {
+    largest = std::max<double>(largest, largest_pixel(pixels, static_cast<std::size_t>(length)));
+  });
+  return count_levels(image, thinning, largest);
+}
+
 template Histogram compute_histogram<std::uint8_t>(ImageView8, int);
 template Histogram compute_histogram<std::uint16_t>(ImageView16, int);
+template Histogram compute_histogram<std::uint8_t>(ImageView8, int, double);
+template Histogram compute_histogram<std::uint16_t>(ImageView16, int, double);
 
 int otsu_threshold(const Histogram& histogram) {
   double total = 0, total_sum = 0;

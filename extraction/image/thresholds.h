@@ -27,6 +27,10 @@ struct Histogram {
 template <class T>
 Histogram compute_histogram(ImageView<T> image, int thinning = 1);
 
+/// The same where the brightest level is known but for the counted pixels: nothing else is read.
+template <class T>
+Histogram compute_histogram(ImageView<T> image, int thinning, double largest);
+
 /// Bin that maximises the variance between the classes [0, bin] and [bin + 1, 255] (Otsu 1979).
 int otsu_threshold(const Histogram& histogram);
 

@@ -12,8 +12,8 @@
 
 namespace lightstripe {
 
-/// Points whose strength has fallen against that further in are the less sure the more it fell. Each is
-/// joined with the continuation of the line from further in (a parabola), weighted by what both are sure of;
+/// The weaker a point is relative to the interior of the line, the larger its error. Each such point is
+/// averaged with the continuation of the line from further in (a parabola), each weighted by its variance;
 /// sigma_px follows. `places` is scratch memory.
 void mend_line_ends(const DerivativeKernels& kernels, LineSet& lines, std::vector<LocalFitPoint>& places);
 

@@ -103,7 +103,7 @@ double flagged_share(const LineSet& lines, const LineRange& r, int flags) {
   return static_cast<double>(flagged) / static_cast<double>(r.size());
 }
 
-/// Whether a stretch can be bad at all: medians lie within what they are medians of.
+/// Cheap test: if no single point is bad, no median of three can be.
 bool has_bad_point(const Trial& t, const LineSet& lines, const LineRange& r, double width) {
   const double lit = 2.5 * kTopNoise * t.profile_noise;
   for (std::size_t i = r.begin; i < r.end; ++i)

@@ -15,7 +15,7 @@ namespace lightstripe {
 /// Median of the values (their order is changed); 0 for none.
 double median_of(std::vector<float>& values);
 
-/// Every how many points a statistic over a line needs to look: some hundred are enough.
+/// Stride for statistics along a line; about 150 samples are enough.
 inline std::size_t sample_step(const LineRange& r) { return 1 + r.size() / 150; }
 
 /// What measure_points finds besides, and its scratch memory.

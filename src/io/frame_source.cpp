@@ -11,6 +11,7 @@
 #include "io/choose_channel.h"
 #include "io/frame_numbers.h"
 #include "io/images.h"
+#include "io/plain_pixels.h"
 #include "io/tiff_pages.h"
 #include "io/video_frames.h"
 
@@ -39,6 +40,15 @@ bool is_picture_name(const fs::path& path) {
          std::find(kExtensions.begin(), kExtensions.end(), extension) != kExtensions.end();
 }
 
+/// All pictures of a folder; its tables and notes are left alone.
+FileNames pictures_in(const fs::path& base, const std::string& folder) {
+  FileNames files = list_file_names(base, (fs::path(folder) / "*").string());
+  std::erase_if(files.names, [](const std::string& name) { return !is_picture_name(name); });
+  if (files.names.empty())
+    throw Error((base / folder).string(), "holds no pictures (.png .jpg .bmp .pgm .tif)", "check the folder");
+  return files;
+}
+
 /// Keeps names, not paths: a long recording has very many.
 class ImageFolder : public FrameSource {
  public:
@@ -57,12 +67,23 @@ class ImageFolder : public FrameSource {
   GreyImage read(std::int64_t index) const override {
     return read_grey_image(folder_ / names_[checked(index)], channel_);
   }
+  Picture look(std::int64_t index) const override {
+    auto picture = map_picture(file(index), channel_);
+    if (!picture) return read(index);
+    if (!picture->is_cached()) read_ahead_of(index);
+    return *std::move(picture);
+  }
   std::optional<std::int64_t> number(std::int64_t index) const override {
     if (numbers_.empty()) return std::nullopt;
     return numbers_[checked(index)];
   }
 
  private:
+  /// From a slow disk the next pictures come while this one is looked at.
+  void read_ahead_of(std::int64_t index) const {
+    constexpr std::int64_t kAhead = 8;
+    for (std::int64_t k = index + 1; k < std::min(size(), index + 1 + kAhead); ++k) read_ahead(file(k));
+  }
   std::size_t checked(std::int64_t index) const {
     LIGHTSTRIPE_CHECK(index >= 0 && index < size(), "a frame of the sequence");
     return static_cast<std::size_t>(index);
@@ -115,6 +136,9 @@ Channel channel_of_pictures(const std::vector<fs::path>& files) {
 }
 
 std::unique_ptr<FrameSource> open_frames(const fs::path& base, const std::string& pattern, Channel channel) {
+  std::error_code error;
+  if (fs::is_directory(base / pattern, error))
+    return std::make_unique<ImageFolder>(pictures_in(base, pattern), channel);
   FileNames files = list_file_names(base, pattern);
   const fs::path first = files.folder / files.names.front();
   refuse_special_file(first);

@@ -15,6 +15,7 @@
 
 #include "core/fields.h"
 #include "core/image.h"
+#include "core/picture.h"
 
 namespace lightstripe {
 
@@ -120,6 +121,8 @@ class FrameSource {
   virtual std::filesystem::path file(std::int64_t) const { return {}; }
   /// An Error where this one picture cannot be read; the others are not touched by that.
   virtual GreyImage read(std::int64_t index) const = 0;
+  /// The same where its pixels lie in the file as they are needed, without a copy; else what read() gives.
+  virtual Picture look(std::int64_t index) const { return read(index); }
   /// Why the recording may not be whole ("its header says 240 frames"); empty where nothing speaks for that.
   virtual std::string doubt() const { return {}; }
   /// The running number that the picture's file name carries; nothing where the names have no such number.

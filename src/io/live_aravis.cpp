@@ -33,6 +33,16 @@ constexpr int kSocketBufferBytes = 16 << 20;
 constexpr std::uint64_t kLastShortId = 65535;  // GigE Vision 1 counts blocks 1 .. 65535, then 1 again
 constexpr std::int64_t kMostLost = 1000000;    // a gap that is larger means a camera that began anew
 
+/// From one block's number to the next one's. Frames that wait for packets sent again may come after later
+/// ones: a small step back is one, a large one the counter's begin.
+std::int64_t frames_between(std::uint64_t last, std::uint64_t id) {
+  const auto step = static_cast<std::int64_t>(id) - static_cast<std::int64_t>(last);
+  const auto round = static_cast<std::int64_t>(kLastShortId);
+  if (last > kLastShortId || id > kLastShortId) return step;
+  if (step < -round / 2) return step + round;
+  return step > round / 2 ? step - round : step;
+}
+
 struct Unref {
   void operator()(gpointer object) const { g_object_unref(object); }
 };
@@ -251,7 +261,11 @@ class AravisCamera : public LiveSource {
     LiveFrame frame;
     frame.arrived = std::chrono::system_clock::now();
     frame.complete = complete_time(buffer, frame.arrived);
-    add_lost(arv_buffer_get_frame_id(buffer), frame);
+    const std::uint64_t id = arv_buffer_get_frame_id(buffer);
+    const std::int64_t step = last_id_ ? frames_between(*last_id_, id) : 1;
+    if (step <= 0 && step > -kBuffers) return;  // named as lost when a later one was complete
+    add_lost(step, frame);
+    last_id_ = id;
     frame.frame = next_++;
     const ArvBufferStatus status = arv_buffer_get_status(buffer);
     frame.camera_ns = static_cast<std::int64_t>(arv_buffer_get_timestamp(buffer));
@@ -279,21 +293,17 @@ class AravisCamera : public LiveSource {
                                                    : std::chrono::nanoseconds(0));
   }
 
-  void add_lost(std::uint64_t id, const LiveFrame& now) {
-    if (last_id_) {
-      std::int64_t step = static_cast<std::int64_t>(id) - static_cast<std::int64_t>(*last_id_);
-      if (step <= 0 && *last_id_ <= kLastShortId) step += static_cast<std::int64_t>(kLastShortId);
-      for (std::int64_t i = 1; i < step && step < kMostLost; ++i) {
-        LiveFrame lost;
-        lost.frame = next_++;
-        lost.status = FrameStatus::kLost;
-        lost.reason = "nothing of it arrived";
-        lost.arrived = now.arrived;
-        lost.complete = now.complete;
-        waiting_.push_back(std::move(lost));
-      }
+  /// Names the frames that are missing before this one; a gap beyond all measure is a camera that began anew.
+  void add_lost(std::int64_t step, const LiveFrame& now) {
+    for (std::int64_t i = 1; i < step && step < kMostLost; ++i) {
+      LiveFrame lost;
+      lost.frame = next_++;
+      lost.status = FrameStatus::kLost;
+      lost.reason = "it had not arrived when a later one was complete";
+      lost.arrived = now.arrived;
+      lost.complete = now.complete;
+      waiting_.push_back(std::move(lost));
     }
-    last_id_ = id;
   }
 
   void read_picture(ArvBuffer* buffer, LiveFrame& frame) const {

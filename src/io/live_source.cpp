@@ -61,12 +61,6 @@ std::size_t options_at(const std::string& source) {
   return mark != std::string::npos && source.find('=', mark) != std::string::npos ? mark : std::string::npos;
 }
 
-/// A folder stands for all pictures in it.
-std::string files_of(const std::string& place) {
-  std::error_code error;
-  return std::filesystem::is_directory(place, error) ? (std::filesystem::path(place) / "*").string() : place;
-}
-
 }  // namespace
 
 std::string_view name_of(FrameStatus status) {
@@ -128,7 +122,7 @@ std::unique_ptr<LiveSource> open_live(const std::string& source, const LiveOptio
   if (text.scheme == "aravis") return open_aravis(text, options);
   if (!text.scheme.empty()) return open_capture(text, options);
   refuse_other_options(text, {"frame_rate"});
-  return std::make_unique<Playback>(files_of(text.place), text, options.channel);
+  return std::make_unique<Playback>(text.place, text, options.channel);
 }
 
 }  // namespace lightstripe

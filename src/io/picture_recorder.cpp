@@ -78,11 +78,25 @@ void write_png(const fs::path& path, const Image<T>& image) {
 
 }  // namespace
 
-PictureRecorder::PictureRecorder(const fs::path& folder, PictureFormat format)
-    : folder_(folder), format_(format) {
+bool PictureRecorder::is_one_file(const fs::path& place) {
+  return place.extension() == ".tif" || place.extension() == ".tiff";
+}
+
+fs::path PictureRecorder::beside(const fs::path& place, const std::string& name) {
+  if (!is_one_file(place)) return place / name;
+  return place.parent_path() / (place.stem().string() + "." + name);
+}
+
+PictureRecorder::PictureRecorder(const fs::path& place, PictureFormat format)
+    : place_(place), format_(format) {
+  const fs::path folder = is_one_file(place) ? place.parent_path() : place;
   std::error_code error;
-  fs::create_directories(folder, error);
+  if (!folder.empty()) fs::create_directories(folder, error);
   if (error) throw Error(folder.string(), "cannot be made (" + error.message() + ")", "name another place");
+  if (is_one_file(place)) {
+    file_.emplace(place);
+    return;
+  }
   for (const auto& entry : fs::directory_iterator(folder)) {
     const std::string extension = entry.path().extension().string();
     if (extension == ".pgm" || extension == ".png" || extension == ".csv" ||
@@ -92,11 +106,15 @@ PictureRecorder::PictureRecorder(const fs::path& folder, PictureFormat format)
 }
 
 std::string PictureRecorder::name(std::int64_t frame) const {
+  if (file_) return fmt::format("{}#{}", place_.filename().string(), file_->pages());
   return fmt::format("{:07}.{}", frame, format_ == PictureFormat::kPgm ? "pgm" : "png");
 }
 
+std::int64_t PictureRecorder::scan_number(std::int64_t frame) const { return file_ ? file_->pages() : frame; }
+
 void PictureRecorder::write(std::int64_t frame, const GreyImage& image) {
-  const fs::path path = folder_ / name(frame);
+  if (file_) return file_->append(image);
+  const fs::path path = place_ / name(frame);
   std::visit(
       [&](const auto& picture) {
         format_ == PictureFormat::kPgm ? write_pgm(path, picture) : write_png(path, picture);

@@ -134,6 +134,39 @@ void ResumableFile::append(std::string_view bytes) {
   mark_.crc = crc32(bytes, mark_.crc);
 }
 
+void ResumableFile::append_file(const fs::path& from, std::uint64_t at) {
+  const int source = ::open(from.c_str(), O_RDONLY | O_CLOEXEC);
+  if (source < 0) throw Error(from.string(), "cannot be read", "check the path and its permissions");
+  ::posix_fadvise(source, 0, 0, POSIX_FADV_SEQUENTIAL);
+  std::vector<char> part;
+  auto read_at = static_cast<off_t>(at);
+  int error = 0;
+  for (bool in_system = !direct_; error == 0;) {
+    constexpr std::size_t kPart = std::size_t{1} << 22;
+    ssize_t got = 0;
+    if (in_system) {
+      off_t write_at_place = head_bytes_ + mark_.bytes;
+      got = ::copy_file_range(source, &read_at, descriptor_, &write_at_place, kPart, 0);
+      // Between file systems, and on old ones, the system does not copy.
+      if (got < 0 && errno != EINTR && errno != ENOSPC && errno != EIO) in_system = false;
+    }
+    if (!in_system) {
+      part.resize(kPart);
+      got = ::pread(source, part.data(), part.size(), read_at);
+      if (got > 0) {
+        write_at(head_bytes_ + mark_.bytes, {part.data(), static_cast<std::size_t>(got)});
+        read_at += got;
+      }
+    }
+    if (got == 0) break;
+    if (got < 0 && errno != EINTR) error = errno;
+    if (got > 0) mark_.bytes += got;
+  }
+  ::close(source);
+  if (error == ENOSPC) cannot_write(path_, error);
+  if (error != 0) throw Error(from.string(), "cannot be read to its end", "check the disk");
+}
+
 void ResumableFile::replace_head(std::string_view head) {
   LIGHTSTRIPE_CHECK(static_cast<std::int64_t>(head.size()) == head_bytes_, "a head keeps its length");
   if (!direct_) write_at(0, head);

@@ -31,6 +31,9 @@ class ResumableFile {
 
   /// Written through to the system at once; an Error names the final path (disk full).
   void append(std::string_view bytes);
+  /// A file's bytes from `at` on, copied by the system; for results that are not resumed: the mark's check
+  /// sum is not kept.
+  void append_file(const std::filesystem::path& from, std::uint64_t at);
   const Mark& mark() const { return mark_; }
   /// A head of the same length in place of the first one.
   void replace_head(std::string_view head);

@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "io/choose_channel.h"
 #include "io/decode_picture.h"
+#include "io/plain_pixels.h"
 #include "io/tiff_page_cut.h"
 
 namespace lightstripe {
@@ -60,6 +61,14 @@ class TiffPages : public FrameSource {
   }
   std::filesystem::path file(std::int64_t) const override { return path_; }
   GreyImage read(std::int64_t index) const override { return read_as(index, channel_, nullptr); }
+  Picture look(std::int64_t index) const override {
+    LIGHTSTRIPE_CHECK(index >= 0 && index < size(), "a frame of the sequence");
+    const bool excess = channel_ >= Channel::kRedExcess && channel_ <= Channel::kBlueExcess;
+    const auto pixels = mapped_ && !excess ? find_tiff_pixels(mapped_->bytes(),
+                                                              layout_.pages[static_cast<std::size_t>(index)])
+                                           : std::nullopt;
+    return pixels ? Picture(*pixels, mapped_) : Picture(read(index));
+  }
 
  private:
   ReadAt reader() const {
@@ -77,6 +86,7 @@ class TiffPages : public FrameSource {
   std::filesystem::path path_;
   SharedFile file_;
   TiffLayout layout_;
+  std::shared_ptr<const MappedFile> mapped_ = MappedFile::open(path_);
   Channel channel_ = Channel::kGray;
 };
 

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <future>
 #include <thread>
@@ -97,6 +98,28 @@ TEST_F(Live, ARecordingGivesTheBytesOfItsSource) {
   EXPECT_THAT(second.err, HasSubstr("holds a recording already"));
 }
 
+TEST_F(Live, ARecordingInOneFileAndAPlainFolderGiveTheBytesOfTheirSource) {
+  const auto recorded =
+      run_lightstripe("record " + pictures() + " -o " + quoted(at("one.tif")) + " --step-mm 2");
+  ASSERT_EQ(recorded.exit_code, 0) << recorded.err;
+  EXPECT_THAT(text_of(at("one.frames.csv")), HasSubstr("\n5,one.tif#5,ok,"));
+  EXPECT_THAT(text_of(at("one.record.yaml")), HasSubstr("whole: 6\n"));
+  const auto second = run_lightstripe("record " + pictures() + " -o " + quoted(at("one.tif")));
+  EXPECT_EQ(second.exit_code, 1);
+  EXPECT_THAT(second.err, HasSubstr("is there already"));
+  const auto foldered =
+      run_lightstripe("record " + pictures() + " -o " + quoted(at("plain")) + " --step-mm 2");
+  ASSERT_EQ(foldered.exit_code, 0) << foldered.err;
+  write_scan("of_file.yaml", "one.tif", "{file: one.travel.csv}");
+  write_scan("of_folder.yaml", "plain", "{file: plain/travel.csv}");  // its tables are no pictures
+  for (const std::string scan : {"of_file", "of_folder"}) {
+    const auto result =
+        run_lightstripe("reconstruct " + quoted(at(scan + ".yaml")) + " -o " + quoted(at(scan + ".ply")));
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_TRUE(text_of(at(scan + ".ply")) == text_of(at("whole.ply"))) << scan;
+  }
+}
+
 TEST_F(Live, EachFrameIsOneLineWithThePointsOfTheReconstruction) {
   const auto live =
       run_lightstripe("live " + pictures() + " --rig " + quoted(at("data/truth/rig.yaml")) + " --step-mm 2");
@@ -169,15 +192,28 @@ TEST_F(Live, CtrlCEndsARecordingCleanly) {
 
 TEST_F(Live, FollowingAGrowingRecordingGivesTheBytesOfOneRun) {
   write_scan("growing.yaml", "growing/*.pgm", "{file: growing/travel.csv}");
+  std::atomic<bool> page_grew = false, over = false;
+  const std::jthread watch([&] {  // the page while the scan still grows asks to be loaded again
+    while (!over) {
+      if (fs::exists(at("followed.html")) &&
+          text_of(at("followed.html")).find("http-equiv=\"refresh\"") != std::string::npos)
+        page_grew = true;
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+  });
   auto following = std::async(std::launch::async, [] {
     return run_lightstripe("reconstruct " + quoted(at("growing.yaml")) + " --follow --idle 30 -o " +
-                           quoted(at("followed.ply")) + " --profiles " + quoted(at("followed.csv")));
+                           quoted(at("followed.ply")) + " --profiles " + quoted(at("followed.csv")) +
+                           " --view " + quoted(at("followed.html")));
   });
   std::this_thread::sleep_for(std::chrono::milliseconds(300));  // it begins before there is a folder
   const auto recorded = run_lightstripe("record " + quoted(at("data/scan/solo/*.png?frame_rate=4")) + " -o " +
                                         quoted(at("growing")) + " --step-mm 2");
   ASSERT_EQ(recorded.exit_code, 0) << recorded.err;
   const auto result = following.get();  // ends by record.yaml, not by --idle
+  over = true;
+  EXPECT_TRUE(page_grew);
+  EXPECT_EQ(text_of(at("followed.html")).find("http-equiv=\"refresh\""), std::string::npos);
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_TRUE(text_of(at("followed.ply")) == text_of(at("whole.ply")));
   EXPECT_TRUE(text_of(at("followed.csv")) == text_of(at("whole.csv")));

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "extraction/extract_stripes.h"
+#include "real_light.h"
 #include "stripe_scenes.h"
 
 namespace lightstripe {
@@ -67,6 +68,20 @@ TEST(CurvatureBias, StraightNoisyLinesAreHardlyMoved) {
     }
   }
   EXPECT_LE(std::sqrt(with / without), 1.05);
+}
+
+TEST(CurvatureBias, OfClippedBarsIsCorrectedLessExactlyAndSigmaSaysSo) {
+  for (const double exposure : {1.5, 6.0, 15.0, 60.0}) {
+    scenes::RealStripe stripe;
+    stripe.sigma = 4;
+    stripe.exposure = exposure;
+    scenes::RealScore score;
+    for (std::uint64_t seed = 100; seed < 104; ++seed)
+      add_to(score, stripe, extract_stripes(picture_of(stripe, seed).view()).stripes);
+    EXPECT_LT(score.rms_surprise(), 2.0) << exposure;
+    EXPECT_LT(score.rms(), 0.025) << exposure;
+    EXPECT_LT(score.sigma(), 0.04) << exposure;
+  }
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "extraction/extract_stripes.h"
+#include "real_light.h"
 #include "stripe_scenes.h"
 
 namespace lightstripe {
@@ -116,6 +117,24 @@ TEST(OwnScale, ABroadKernelDoesNotJoinPiecesThatLieBesideEachOther) {
       ++(std::abs(p.x - centre(static_cast<int>(std::lround(p.y)))) < 2 ? covered : astray);
   EXPECT_GT(covered, 385);
   EXPECT_LT(astray, 8);
+}
+
+TEST(OwnScale, InSpeckleTheKernelIsBroaderAndHoldsTheLineTogether) {
+  scenes::RealStripe stripe;
+  stripe.speckle = {0.4, 1.2};
+  const Image8 image = picture_of(stripe, 7);
+  ExtractionOptions as_wide;
+  as_wide.sigma = stripe.sigma;
+  const auto own = extract_stripes(image.view()), fixed = extract_stripes(image.view(), as_wide);
+  EXPECT_GT(own.sigma, 1.4 * stripe.sigma);
+  scenes::RealScore by_own, by_fixed;
+  add_to(by_own, stripe, own.stripes);
+  add_to(by_fixed, stripe, fixed.stripes);
+  EXPECT_GT(by_own.completeness(), 0.98);
+  EXPECT_LT(by_own.rms(), 0.75 * by_fixed.rms());
+  // Without speckle the camera's noise decides: the kernel has the stripe's own width.
+  stripe.speckle = {0, 1.2};
+  EXPECT_NEAR(extract_stripes(picture_of(stripe, 7).view()).sigma, stripe.sigma, 0.2);
 }
 
 TEST(OwnScale, LightOfTheLasersColourTellsTheLineFromOthers) {

@@ -69,5 +69,19 @@ TEST(ResumableFile, AFolderOfThatNameIsAnError) {
   EXPECT_THAT(error_of([&] { ResumableFile(folder.path(), "h"); }), HasSubstr("is a folder"));
 }
 
+TEST(ResumableFile, AFilesBytesAreAppendedFromAPlaceOn) {
+  const TempFolder folder;
+  folder.write("part", "headline\n1\n2\n");
+  ResumableFile file(folder / "whole.csv", "h\n");
+  file.append_file(folder / "part", 9);
+  file.append("3\n");
+  file.append_file(folder / "part", 11);
+  EXPECT_EQ(file.mark().bytes, 8);
+  file.commit();
+  EXPECT_EQ(content_of(folder / "whole.csv"), "h\n1\n2\n3\n2\n");
+  ResumableFile other(folder / "other.csv", "h\n");
+  EXPECT_THAT(error_of([&] { other.append_file(folder / "none", 0); }), HasSubstr("cannot be read"));
+}
+
 }  // namespace
 }  // namespace lightstripe

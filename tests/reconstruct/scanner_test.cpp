@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reconstruct/scanner.h"
 
+#include "extraction/track/track_stripes.h"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -353,6 +355,47 @@ TEST(ScanProfiles, PicturesOfAStripeBecomeSectionsByTheRealExtraction) {
     ++frames;
   });
   EXPECT_EQ(frames, 8);
+}
+
+TEST(ScanProfiles, ATrackedScanHasTheSameBitsForAnyThreadsAndInParts) {
+  Rig rig;
+  rig.sensors.push_back(
+      {"gauge", {240, 120, 1000, 1000, 120, -140, {}}, {{Eigen::Vector3d::UnitY(), 100}}, {}});
+  ScanInput input;
+  input.end_frame = 2 * kTrackedFrames + 5;
+  std::atomic<int> reads = 0;
+  input.read = [&](std::int64_t frame, int) -> std::optional<GreyImage> {
+    ++reads;
+    if (frame == kTrackedFrames) throw Error("picture", "is damaged", "record it again");
+    return picture_of_level_stripe(50 + 0.07 * static_cast<double>(frame));
+  };
+  input.position = [](std::int64_t) { return FramePosition{}; };
+  ExtractionOptions options;
+  options.track = true;
+  const auto run = [&](std::int64_t first, std::int64_t end, int threads) {
+    input.first_frame = first;
+    input.end_frame = end;
+    std::vector<double> values;
+    const auto summary = scan_profiles(input, rig, options, threads, [&](const ScannedFrame& frame) {
+      for (const auto& p : frame.profile.points) {
+        values.push_back(p.v);
+        values.push_back(p.sigma_mm);
+      }
+    });
+    EXPECT_EQ(summary.pictures_skipped, first <= kTrackedFrames && kTrackedFrames < end ? 1 : 0);
+    return values;
+  };
+  const std::int64_t end = input.end_frame;
+  const auto whole = run(0, end, 1);
+  EXPECT_EQ(reads, end);  // each picture once, key frames too
+  EXPECT_GT(whole.size(), 2U * 200U * static_cast<std::size_t>(end - 1));
+  for (const int threads : {2, 5}) EXPECT_EQ(run(0, end, threads), whole);
+  auto parts = run(0, 20, 2);
+  for (const auto& [from, to] : {std::pair<std::int64_t, std::int64_t>{20, 50}, {50, end}}) {
+    const auto part = run(from, to, 2);
+    parts.insert(parts.end(), part.begin(), part.end());
+  }
+  EXPECT_EQ(parts, whole);
 }
 
 TEST(ScanProfiles, NegativeThreadsAreTheCallersFault) {
