@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 
+#include "apps/bench_real.h"
 #include "apps/bench_references.h"
 #include "apps/command.h"
 #include "apps/options.h"
@@ -28,6 +29,7 @@ namespace {
 struct BenchArguments {
   CommonOptions common;
   std::vector<std::string> images;
+  std::string labels;  ///< folder of labelled pictures; else `images`
   int repeat = 100;
   Overrides overrides;
 };
@@ -200,12 +202,22 @@ std::string table_row(const Timing& t, double steger_ms) {
   return row;
 }
 
+int run_bench_labelled(const BenchArguments& arguments, const ExtractionOptions& options) {
+  constexpr int kMostRepeats = 7, kSpecklePictures = 12;
+  const auto scores = bench_labelled(arguments.labels, options, std::min(arguments.repeat, kMostRepeats));
+  const std::string output = arguments.common.output.empty() ? "real_pictures.md" : arguments.common.output;
+  write_file(output, real_pictures_page(scores, bench_speckle(options, kSpecklePictures)));
+  say(arguments.common, "-> " + output);
+  return kExitDone;
+}
+
 int run_bench(const BenchArguments& arguments) {
   const JobThreads one_thread(1);
   const std::string output = arguments.common.output.empty() ? "bench.csv" : arguments.common.output;
   guard_outputs({arguments.images.begin(), arguments.images.end()}, {output});
   ExtractionOptions options;
   apply_overrides(options, arguments.overrides);
+  if (!arguments.labels.empty()) return run_bench_labelled(arguments, options);
   std::string csv = "image,method,median_ms,points\n";
   std::string disagreements;
   for (const auto& file : arguments.images) {
@@ -232,12 +244,21 @@ int run_bench(const BenchArguments& arguments) {
 void add_bench_command(CLI::App& app, Command& run) {
   auto* command = app.add_subcommand("bench", "every extraction method on these images, timed on one thread");
   auto arguments = std::make_shared<BenchArguments>();
-  command->add_option("images", arguments->images, "image files")->required();
-  add_common_options(*command, arguments->common, "table of times (default: bench.csv)");
+  auto* images = command->add_option("images", arguments->images, "image files");
+  auto* labels =
+      command->add_option("--labels", arguments->labels,
+                          "folder of labelled pictures (<set>/<picture>.json): writes a page of how the "
+                          "methods do on them and on speckle");
+  labels->excludes(images);
+  add_common_options(*command, arguments->common,
+                     "table of times (default: bench.csv; page: real_pictures.md)");
   command->add_option("--repeat", arguments->repeat, "runs of which the median is taken [100]")
       ->check(CLI::Range(1, 1000000));
   add_field_options<ExtractionOptions>(*command, "", arguments->overrides);
-  command->callback([arguments, &run] { run = [arguments] { return run_bench(*arguments); }; });
+  command->callback([arguments, &run] {
+    if (arguments->images.empty() && arguments->labels.empty()) throw CLI::RequiredError("images");
+    run = [arguments] { return run_bench(*arguments); };
+  });
 }
 
 }  // namespace lightstripe

@@ -22,7 +22,7 @@ struct ExtractArguments {
   CommonOptions common;
   std::vector<std::string> images;
   std::string channel = "auto";
-  std::string overlay_folder;
+  std::string overlay_folder, background;
   bool explain = false;
   Overrides overrides;
 };
@@ -31,7 +31,7 @@ Channel parse_channel(const std::string& text) {
   for (const auto& [value, name] : enum_names(Channel{}))
     if (name == text) return value;
   throw Error("--channel", "'" + text + "' is no channel",
-              "use auto, gray, or red, green or blue, alone or with -excess, -laser or -clipped");
+              "use auto, gray, or red, green or blue, alone or with -excess, -laser, -clipped or -textured");
 }
 
 int run_extract(const ExtractArguments& arguments) {
@@ -39,6 +39,7 @@ int run_extract(const ExtractArguments& arguments) {
   apply_overrides(job.extraction, arguments.overrides);
   job.images = arguments.images;
   job.channel = parse_channel(arguments.channel);
+  job.background = arguments.background;
   job.threads = arguments.common.threads;
   if (!arguments.common.output.empty()) job.table = arguments.common.output;
   std::vector<fs::path> overlays;
@@ -63,6 +64,7 @@ int run_extract(const ExtractArguments& arguments) {
   };
   if (arguments.explain) job.on_row = [&](std::size_t i) { say(arguments.common, explanations[i]); };
   const ExtractResult result = extract(job, progress_line(arguments.common.quiet));
+  for (const std::string& warning : result.warnings) warn(warning);
   say(arguments.common, fmt::format("{} images, {} lines, {} points -> {}", result.images, result.lines,
                                     result.points, job.table.string()));
   if (!lost_overlay.empty()) {
@@ -83,9 +85,12 @@ void add_extract_command(CLI::App& app, Command& run) {
   auto arguments = std::make_shared<ExtractArguments>();
   command->add_option("images", arguments->images, "image files")->required();
   add_common_options(*command, arguments->common, "table of points (default: stripes.csv)");
+  command->add_option("--channel", arguments->channel,
+                      "of colour images: auto, gray, or red, green, blue, alone or with -excess, -laser, "
+                      "-clipped, -textured");
   command->add_option(
-      "--channel", arguments->channel,
-      "of colour images: auto, gray, or red, green, blue, alone or with -excess, -laser, -clipped");
+      "--background", arguments->background,
+      "picture with the laser off, or a pattern ('off/*.png') of one each with the same number");
   command->add_option("--overlay", arguments->overlay_folder, "folder for pictures with the lines drawn in");
   command->add_flag("--explain", arguments->explain,
                     "print how the thresholds came about; with --overlay also draw the histogram");

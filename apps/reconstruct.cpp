@@ -71,6 +71,7 @@ void warn_of_gaps(const ReconstructResult& result) {
                     summary.interpolated.count, summary.interpolated.text()));
   if (summary.frames_without_points > 0)
     warn(fmt::format("{} frames show no stripe", summary.frames_without_points));
+  for (const std::string& sentence : result.outside_range) warn(sentence);
   if (summary.rays_missed > 0)
     warn(fmt::format("{} stripe points have no certain laser plane, or do not meet it, and are left out",
                      summary.rays_missed));
@@ -169,7 +170,8 @@ int run_reconstruct(const ReconstructArguments& arguments) {
   }
   CloudPreview preview;
   const ScanProducts products = products_of(arguments, job);
-  for (const fs::path& output : {fs::path(arguments.preview), products.view, products.height_map, products.mesh})
+  for (const fs::path& output :
+       {fs::path(arguments.preview), products.view, products.height_map, products.mesh})
     if (!output.empty()) job.other_outputs.push_back(output);
   if (!products.height_map.empty())
     job.other_outputs.push_back(fs::path(products.height_map).replace_extension(".png"));
@@ -192,6 +194,8 @@ int run_reconstruct(const ReconstructArguments& arguments) {
       fmt::format("{} frames, {} points in {:.2f} s ({:.1f} frames/s) -> {}", result.summary.frames,
                   result.summary.points, result.seconds,
                   static_cast<double>(result.frames_now) / result.seconds, job.cloud.string()));
+  for (const SensorLines& lines : result.lines)
+    if (lines.points > 0) say(arguments.common, describe_lines(lines));
   for (const std::string& line : made) say(arguments.common, line);
   return kExitDone;
 }

@@ -2,7 +2,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pipeline/verify_job.h"
 
+#include "core/error.h"
+#include "io/atomic_file.h"
+#include "io/rig_file.h"
+#include "io/session_file.h"
+#include "pipeline/artefact_job.h"
+#include "report/artefact_report.h"
+
 #include <fmt/format.h>
+
+#include <cmath>
 
 #include "apps/command.h"
 #include "apps/options.h"
@@ -11,10 +20,16 @@
 namespace lightstripe {
 namespace {
 
+struct ArtefactArguments {
+  std::string kind, sensor, report;
+  double size_mm = 0, size_sigma_mm = 0, max_error_mm = 0, max_drift_mm = 0;
+};
+
 struct VerifyArguments {
   CommonOptions common;
   std::string session, rig;
   Overrides extraction, limits;
+  ArtefactArguments artefact;
 };
 
 std::string describe(const Verification& verification) {
@@ -33,7 +48,55 @@ std::string describe(const Verification& verification) {
   return text;
 }
 
+ArtefactJob artefact_job_of(const VerifyArguments& arguments) {
+  const ArtefactArguments& given = arguments.artefact;
+  if (!(given.size_mm > 0))
+    throw Error("--size", "the body's size is not given",
+                "give its height (step) or diameter (cylinder, sphere) in mm");
+  ArtefactJob job;
+  job.input = arguments.session, job.rig_file = arguments.rig;
+  job.rig = read_rig(arguments.rig);
+  for (const auto& entry : enum_names(Artefact{}))
+    if (given.kind == entry.name) job.spec.kind = entry.value;
+  job.spec.size_mm = given.size_mm, job.size_sigma_mm = given.size_sigma_mm;
+  job.max_error_mm = given.max_error_mm, job.max_drift_mm = given.max_drift_mm;
+  job.sensor = given.sensor;
+  const bool is_scan = job.input.extension() == ".yaml" || job.input.extension() == ".yml";
+  if (is_scan) read_subtree(read_scan(job.input).extraction, job.extraction);
+  apply_overrides(job.extraction, arguments.extraction);
+  if (!arguments.common.output.empty()) job.table = arguments.common.output;
+  job.threads = arguments.common.threads;
+  return job;
+}
+
+std::string describe(const ArtefactCheck& check) {
+  std::string text = fmt::format(
+      "{} of {:g} mm: measured {:.4f} mm, error {:+.4f} mm, sigma {:.4f} mm ({} points, scatter {:.4f} mm)",
+      check.artefact, check.size_mm, check.measured_mm, check.error_mm, check.sigma_mm, check.points,
+      check.scatter_mm);
+  if (check.drift_mm)
+    text +=
+        fmt::format("\nsince the last check: {:+.4f} mm, sigma {:.4f} mm{}", *check.drift_mm,
+                    check.drift_sigma_mm.value_or(0),
+                    std::abs(*check.drift_mm) > 3 * check.drift_sigma_mm.value_or(0) ? ": it drifts" : "");
+  return text;
+}
+
+int run_artefact(const VerifyArguments& arguments) {
+  const CommonOptions& common = arguments.common;
+  const ArtefactJob job = artefact_job_of(arguments);
+  const ArtefactResult result = verify_artefact(job, progress_line(common.quiet));
+  if (!result.check) return not_usable(result.not_usable);
+  say(common, describe(*result.check));
+  if (!arguments.artefact.report.empty())
+    write_file(arguments.artefact.report, artefact_report_html(result.history));
+  say(common, fmt::format("{}; check {} -> {}", result.usable() ? "passed" : "failed", result.history.size(),
+                          job.table.string()));
+  return result.usable() ? kExitDone : not_usable(result.not_usable);
+}
+
 int run_verify(const VerifyArguments& arguments) {
+  if (!arguments.artefact.kind.empty()) return run_artefact(arguments);
   const CommonOptions& common = arguments.common;
   VerifyJob job = read_verify_job(arguments.session, arguments.rig);
   apply_overrides(job.extraction, arguments.extraction);
@@ -50,6 +113,28 @@ int run_verify(const VerifyArguments& arguments) {
   return result.usable() ? kExitDone : not_usable(result.not_usable);
 }
 
+void add_artefact_options(CLI::App& command, ArtefactArguments& artefact) {
+  const char* group = "A body of known size instead of boards";
+  auto* kind =
+      command
+          .add_option("--artefact", artefact.kind, "step, cylinder or sphere; SESSION is a scan or a picture")
+          ->check(CLI::IsMember({"step", "cylinder", "sphere"}))
+          ->group(group);
+  const auto add_mm = [&](const char* name, double& value, const char* what) {
+    command.add_option(name, value, what)->check(CLI::NonNegativeNumber)->needs(kind)->group(group);
+  };
+  add_mm("--size", artefact.size_mm, "its height (step) or diameter, mm");
+  add_mm("--size-sigma-mm", artefact.size_sigma_mm, "how well that is known, 1 sigma [0]");
+  add_mm("--max-error-mm", artefact.max_error_mm, "limit of the error [3 sigma]");
+  add_mm("--max-drift-mm", artefact.max_drift_mm, "limit of the change since the last check [none]");
+  command.add_option("--sensor", artefact.sensor, "that took the picture [the rig's first]")
+      ->needs(kind)
+      ->group(group);
+  command.add_option("--report", artefact.report, "page with all checks of this body (HTML)")
+      ->needs(kind)
+      ->group(group);
+}
+
 }  // namespace
 
 void add_verify_command(CLI::App& app, Command& run) {
@@ -59,8 +144,11 @@ void add_verify_command(CLI::App& app, Command& run) {
   command->add_option("session", arguments->session, "session (YAML) as for calibrate, with new images")
       ->required();
   command->add_option("--rig", arguments->rig, "the rig to verify")->required();
-  add_common_options(*command, arguments->common, "table of the views (default: verify.csv)");
+  add_common_options(
+      *command, arguments->common,
+      "table of the views (default: verify.csv; with --artefact artefact_checks.csv, which grows)");
   add_field_options<VerifyLimits>(*command, "", arguments->limits);
+  add_artefact_options(*command, arguments->artefact);
   add_field_options<ExtractionOptions>(*command, "extraction.", arguments->extraction);
   command->callback([arguments, &run] { run = [arguments] { return run_verify(*arguments); }; });
 }

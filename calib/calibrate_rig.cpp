@@ -7,12 +7,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "calib/adjust/hand_eye.h"
 #include "calib/adjust/joint_adjustment.h"
 #include "calib/adjust/rig_frame.h"
 #include "calib/adjust/session_views.h"
 #include "calib/assess/board_spread.h"
 #include "calib/assess/diagnosis.h"
+#include "calib/assess/given_camera.h"
+#include "calib/assess/tool_pose.h"
 #include "calib/assess/uncertainty.h"
 #include "calib/assess/verdict.h"
 #include "calib/start/choose_lens.h"
@@ -85,17 +86,7 @@ void take_rig(const SessionViews& session, const JointAdjustment& adjustment,
 void take_tool(const CalibrationObservations& observations, const SessionViews& session,
                const JointAdjustment& adjustment, CalibrationResult& result) {
   if (!observations.tool_poses) return;
-  std::vector<ToolView> views;
-  for (const auto& tool : *observations.tool_poses) {
-    const auto pose = std::find(session.poses.begin(), session.poses.end(), tool.pose);
-    const auto index = static_cast<int>(pose - session.poses.begin());
-    const bool seen = std::any_of(session.views.begin(), session.views.end(),
-                                  [&](const auto& view) { return view.pose == index; });
-    if (pose != session.poses.end() && seen)
-      views.push_back({tool.pose, tool.base_from_tool,
-                       adjustment.state.first_from_board[static_cast<std::size_t>(index)]});
-  }
-  const HandEye found = find_hand_eye(views);
+  const HandEye found = find_tool(*observations.tool_poses, session, adjustment);
   const Rigid3 rig_from_first = result.rig.sensors.front().rig_from_camera;
   result.rig.tool_from_rig = found.tool_from_first * rig_from_first.inverse();
   append(result.rig.quality.warnings, found.left_out);
@@ -136,6 +127,7 @@ void calibrate(const CalibrationObservations& observations, const CalibrationOpt
   result.summary.stripes = stripe_agreement(session, adjustment);
   result.rig.quality.sensors = sensor_quality(session, adjustment.residuals);
   const std::vector<BoardSpread> spreads = board_spreads(session, adjustment);
+  refuse_wrong_camera(session, adjustment, result.rig.quality.sensors, options);
   refuse_bad_adjustment(session, adjustment, result.rig.quality.sensors, spreads);
   refuse_disagreement(session, adjustment);
   refuse_wrong_unit(session, adjustment, options);

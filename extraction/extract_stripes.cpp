@@ -263,7 +263,6 @@ template <class T>
 void finish_lines(const Run<T>& run, ScaleGroup& group) {
   ExtractionWorkspace& w = run.w;
   const DerivativeKernels& kernels = *group.kernels;
-  smooth_measures(kernels, group.lines, w.values);
   predict_errors(run.image, kernels, run.facts.noise.full, group.lines, w.errors);
   if (has_ridges(run.options.method)) {
     mend_line_ends(kernels, group.lines, w.bends.nodes);
@@ -275,6 +274,19 @@ void finish_lines(const Run<T>& run, ScaleGroup& group) {
   add_bend_errors(group.lines);
   // Last: neither bends nor smoothing may take a bias for scatter.
   add_asymmetry(run.image, kernels, group.lines, w.asymmetry);
+}
+
+/// What all lines of the picture tell of its scatter.
+template <class T>
+void look_at_scatter(const Run<T>& run) {
+  ErrorWorkspace& errors = run.w.errors;
+  errors.differences.clear();
+  errors.next = 0;
+  for (ScaleGroup& group : run.w.groups.used()) {
+    smooth_measures(*group.kernels, group.lines, run.w.values);
+    look_at_scatter(run.image, *group.kernels, group.lines, errors);
+  }
+  errors.common = common_scatter(errors.differences);
 }
 
 /// Nobody said how wide the stripes are, and the method can tell line by line.
@@ -304,6 +316,7 @@ void search(const Run<T>& run) {
     find_lines(run);
     if (!run.options.sigma && !run.options.stripe_width) refine_sigma(run);
   }
+  look_at_scatter(run);
   for (ScaleGroup& group : run.w.groups.used()) finish_lines(run, group);
 }
 

@@ -14,6 +14,7 @@
 #include "io/rig_file.h"
 #include "pipeline/calibration_advice.h"
 #include "pipeline/run_record.h"
+#include "pipeline/scan_lines.h"
 
 namespace lightstripe {
 namespace {
@@ -45,6 +46,7 @@ std::vector<fs::path> inputs_of(const CalibrateJob& job) {
   for (const SessionSensor& sensor : session.sensors) {
     add(sensor.board);
     if (sensor.laser) add(*sensor.laser);
+    if (sensor.background) add(*sensor.background);
     if (sensor.camera)  // a rig names its sensor behind a '#'
       inputs.push_back(session.folder / sensor.camera->substr(0, sensor.camera->rfind('#')));
   }
@@ -58,14 +60,33 @@ std::vector<fs::path> inputs_of(const CalibrateJob& job) {
   return once;
 }
 
+/// In what channel each sensor's lines were looked for, and how wide they are.
+std::vector<SensorLines> lines_of(const SessionObservations& seen) {
+  std::vector<SensorLines> all;
+  for (const auto& [sensor, channel] : seen.channels) {
+    std::vector<double> widths;
+    for (const SeenPicture& picture : seen.pictures)
+      if (picture.sensor == sensor)
+        for (const auto& plane : picture.stripes)
+          for (const StripePoint& point : plane) widths.push_back(point.width);
+    std::sort(widths.begin(), widths.end());
+    const auto quantile = [&](std::size_t percent) {
+      return widths.empty() ? 0.0 : widths[percent * (widths.size() - 1) / 100];
+    };
+    all.push_back(
+        {sensor, channel, static_cast<std::int64_t>(widths.size()), quantile(5), quantile(50), quantile(95)});
+  }
+  return all;
+}
+
 void write_results(const CalibrateJob& job, CalibrateResult& result) {
   const Rig& rig = result.calibration.rig;
   if (!job.rig.empty()) write_file(job.rig, rig_to_yaml(rig));
   if (!job.camera_folder.empty()) write_cameras(job.camera_folder, rig, result.warnings);
   if (job.rig.empty()) return;
   write_run_record(job.rig, "calibrate", inputs_of(job),
-                   "extraction:\n" + indented(dump_yaml(job.extraction)) + "calibration:\n" +
-                       indented(dump_yaml(job.calibration)));
+                   lines_yaml(lines_of(result.seen)) + "extraction:\n" + indented(dump_yaml(job.extraction)) +
+                       "calibration:\n" + indented(dump_yaml(job.calibration)));
 }
 
 void guard(const CalibrateJob& job) {

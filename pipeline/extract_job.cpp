@@ -11,12 +11,13 @@
 #include "io/atomic_file.h"
 #include "io/output_guard.h"
 #include "io/tables.h"
+#include "pipeline/background_pictures.h"
 
 namespace lightstripe {
 namespace {
 
 struct ExtractedImage {
-  std::string rows;
+  std::string rows, warning;
   std::size_t lines = 0, points = 0;
   Impression impression = Impression::kNone;
 };
@@ -27,15 +28,29 @@ struct ExtractMemory {
   ExtractionResult result;
 };
 
-ExtractedImage extract_one(const ExtractJob& job, std::size_t index, ExtractMemory& memory) {
+/// The picture as it is looked at.
+GreyImage picture_of(const ExtractJob& job, const BackgroundPictures* background, std::size_t index,
+                     Channel& channel, std::string& warning) {
+  const std::string& file = job.images[index];
+  GreyImage image = read_grey_image(file, job.channel, &channel);
+  if (background == nullptr) return image;
+  if (job.channel == Channel::kAuto && channel_for_background(channel) != channel) {
+    channel = channel_for_background(channel);
+    image = read_grey_image(file, channel);
+  }
+  return background->light_of(image, file, channel, &warning);
+}
+
+ExtractedImage extract_one(const ExtractJob& job, const BackgroundPictures* background, std::size_t index,
+                           ExtractMemory& memory) {
+  ExtractedImage out;
   Channel channel = job.channel;
-  const GreyImage image = read_grey_image(job.images[index], job.channel, &channel);
+  const GreyImage image = picture_of(job, background, index, channel, out.warning);
   std::visit(
       [&](const auto& pixels) {
         extract_stripes(pixels.view(), job.extraction, memory.workspace, memory.result);
       },
       image);
-  ExtractedImage out;
   append_stripes(out.rows, job.images[index], memory.result.stripes);
   out.lines = memory.result.stripes.size();
   for (const auto& stripe : memory.result.stripes) out.points += stripe.points.size();
@@ -50,9 +65,15 @@ ExtractResult extract(const ExtractJob& job, const ProgressCallback& progress, c
   const JobThreads threads(job.threads);
   const std::size_t total = job.images.size();
   const std::size_t batch = 2 * static_cast<std::size_t>(thread_count(job.threads));  // bounds the memory
+  std::unique_ptr<BackgroundPictures> background;
+  std::vector<std::filesystem::path> inputs(job.images.begin(), job.images.end());
+  if (!job.background.empty()) {
+    background = std::make_unique<BackgroundPictures>("", job.background, "--background");
+    inputs.insert(inputs.end(), background->files().begin(), background->files().end());
+  }
   std::vector<std::filesystem::path> outputs = job.other_outputs;
   outputs.push_back(job.table);
-  guard_outputs({job.images.begin(), job.images.end()}, outputs);
+  guard_outputs(inputs, outputs);
   AtomicFile file(job.table);
   std::ofstream table(file.temporary(), std::ios::binary);
   table << kStripesHeader;
@@ -64,7 +85,8 @@ ExtractResult extract(const ExtractJob& job, const ProgressCallback& progress, c
       throw Error(job.table.string(), "the run was stopped before all pictures were done", "run it again");
     std::vector<ExtractedImage> results(std::min(batch, total - begin));
     parallel_for(results.size(), [&](std::size_t i) {
-      memories.with([&](ExtractMemory& memory) { results[i] = extract_one(job, begin + i, memory); });
+      memories.with(
+          [&](ExtractMemory& memory) { results[i] = extract_one(job, background.get(), begin + i, memory); });
       steps.step();
     });
     for (const auto& result : results) {
@@ -73,6 +95,7 @@ ExtractResult extract(const ExtractJob& job, const ProgressCallback& progress, c
       ++out.images;
       out.lines += result.lines;
       out.points += result.points;
+      if (!result.warning.empty()) out.warnings.push_back(result.warning);
       if (out.impression == Impression::kNone) out.impression = result.impression;
     }
   }

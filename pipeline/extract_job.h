@@ -28,6 +28,7 @@ struct SeenImage {
 struct ExtractJob {
   std::vector<std::string> images;  ///< files
   Channel channel = Channel::kAuto;
+  std::string background;  ///< file or pattern of pictures with the laser off; empty: none
   ExtractionOptions extraction;
   std::filesystem::path table = "stripes.csv";
   std::vector<std::filesystem::path> other_outputs;  ///< what else is written: must not be an input either
@@ -40,6 +41,7 @@ struct ExtractJob {
 
 struct ExtractResult {
   std::size_t images = 0, lines = 0, points = 0;
+  std::vector<std::string> warnings;          ///< of backgrounds that do not quite fit
   Impression impression = Impression::kNone;  ///< of the first picture without a line
   bool usable() const { return points > 0; }
 };

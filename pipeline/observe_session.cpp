@@ -16,22 +16,12 @@
 #include "io/camera_file.h"
 #include "io/images.h"
 #include "io/tables.h"
+#include "pipeline/session_tasks.h"
 
 namespace lightstripe {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// What is to be looked at: one pose of the board before one sensor.
-struct ViewTask {
-  int sensor = 0;       ///< index in the session
-  bool motion = false;  ///< a view of the motion calibration
-  double travel = 0;
-  std::string pose;
-  fs::path board;
-  fs::path laser;            ///< empty: the stripe is in the board's image, or there is none (motion)
-  bool camera_only = false;  ///< the board is there for the camera, without laser
-};
 
 struct ViewResult {
   std::optional<BoardView> view;
@@ -41,67 +31,6 @@ struct ViewResult {
   int seen_columns = 0, seen_rows = 0;  ///< of the squares in a picture where the board was not found
   double circle_mm = 0;
 };
-
-/// Pairs board and laser images by the text that the '*' stands for; a laser image alone is reported, not
-/// used.
-std::vector<ViewTask> sensor_tasks(const Session& session, int index, std::vector<RejectedImage>& rejected) {
-  const SessionSensor& sensor = session.sensors[static_cast<std::size_t>(index)];
-  std::map<std::string, fs::path> lasers;
-  if (sensor.laser)
-    for (const auto& file : list_files(session.folder, *sensor.laser))
-      lasers[matched_text(*sensor.laser, file)] = file;
-  std::vector<ViewTask> tasks;
-  if (sensor.board.empty()) return tasks;
-  for (const auto& file : list_files(session.folder, sensor.board)) {
-    ViewTask task;
-    task.sensor = index;
-    task.pose = matched_text(sensor.board, file);
-    task.board = file;
-    task.camera_only = sensor.no_laser;
-    const auto partner = lasers.find(task.pose);
-    if (partner != lasers.end()) {
-      task.laser = partner->second;
-      lasers.erase(partner);
-    } else if (sensor.laser) {
-      rejected.push_back({sensor.name, file.filename().string(),
-                          "no laser image of the same pose: its corners count, no stripe"});
-    }
-    tasks.push_back(std::move(task));
-  }
-  if (sensor.board_only)
-    for (const auto& file : list_files(session.folder, *sensor.board_only)) {
-      ViewTask task{index, false, 0, "board_only/" + matched_text(*sensor.board_only, file), file, {}, true};
-      tasks.push_back(std::move(task));
-    }
-  for (const auto& [pose, file] : lasers)
-    rejected.push_back({sensor.name, file.filename().string(), "no board image of the same pose"});
-  return tasks;
-}
-
-std::vector<ViewTask> motion_tasks(const Session& session) {
-  if (!session.motion) return {};
-  const SessionMotion& motion = *session.motion;
-  const auto column = motion.type == MotionType::kRotary ? "angle_deg" : "travel_mm";
-  const fs::path table = session.folder / motion.travel;
-  const auto travel = read_image_travel(table, column);
-  const auto sensor = std::find_if(session.sensors.begin(), session.sensors.end(),
-                                   [&](const auto& s) { return s.name == motion.sensor; });
-  std::vector<ViewTask> tasks;
-  for (const auto& file : list_files(session.folder, motion.board)) {
-    const auto row = travel.find(file.filename().string());
-    if (row == travel.end())
-      throw Error(table.string(), "has no row for " + file.filename().string(),
-                  "add its position, or move the image away");
-    ViewTask task;
-    task.sensor = static_cast<int>(sensor - session.sensors.begin());
-    task.motion = true;
-    task.travel = row->second;
-    task.pose = "travel/" + file.filename().string();
-    task.board = file;
-    tasks.push_back(std::move(task));
-  }
-  return tasks;
-}
 
 /// The laser's colour hides the board, or leaves nothing of it: boards are looked for in grey.
 Channel board_channel(const Session& session) {
@@ -138,11 +67,28 @@ std::string moved_within_pair(const ViewTask& task, const Session& session, cons
                      *shift);
 }
 
+/// The stripe in the laser's light alone; the reason where the background does not fit.
+StripeOnBoard stripe_without_background(const ViewTask& task, const Image8& laser, Channel channel,
+                                        const std::vector<Eigen::Vector2d>& corners, const Target& target,
+                                        int planes, const ExtractionOptions& extraction) {
+  const fs::path& file = task.laser.empty() ? task.board : task.laser;
+  try {
+    const GreyImage light = task.background->light_of(laser, file, channel);
+    return find_stripe_on_board(std::get<Image8>(light), ImageView8(), corners, target, planes, extraction);
+  } catch (const Error& error) {
+    StripeOnBoard unknown;
+    unknown.reason = error.what();
+    return unknown;
+  }
+}
+
 /// The stripe of a view; `laser` shows it in `channel`, `board` the board as it was found.
 StripeOnBoard stripe_of(const ViewTask& task, const Session& session, const Image8& laser,
                         const Image8& board, Channel channel, const std::vector<Eigen::Vector2d>& corners,
                         const Target& target, const ExtractionOptions& extraction) {
   const int planes = session.sensors[static_cast<std::size_t>(task.sensor)].laser_planes;
+  if (task.background != nullptr)
+    return stripe_without_background(task, laser, channel, corners, target, planes, extraction);
   if (task.laser.empty())
     return find_stripe_on_board(laser, ImageView8(), corners, target, planes, extraction);
   StripeOnBoard moved;
@@ -151,24 +97,6 @@ StripeOnBoard stripe_of(const ViewTask& task, const Session& session, const Imag
   // The difference of the pair needs the same channel in both.
   const Image8 dark = read_image(task.board, channel);
   return find_stripe_on_board(laser, dark.view(), corners, target, planes, extraction);
-}
-
-/// One channel for each sensor: what the session says, or the vote of its pictures.
-std::vector<Channel> sensor_channels(const Session& session, const std::vector<ViewTask>& tasks) {
-  std::vector<Channel> channels(session.sensors.size(), session.channel);
-  if (session.channel != Channel::kAuto) return channels;
-  for (std::size_t sensor = 0; sensor < channels.size(); ++sensor) {
-    std::vector<fs::path> lit;
-    for (const ViewTask& task : tasks) {
-      if (task.sensor != static_cast<int>(sensor) || task.motion || task.camera_only) continue;
-      if (!session.sensors[sensor].laser)
-        lit.push_back(task.board);
-      else if (!task.laser.empty())
-        lit.push_back(task.laser);
-    }
-    channels[sensor] = channel_of_pictures(lit);
-  }
-  return channels;
 }
 
 ViewResult observe_view(const ViewTask& task, const Session& session, Channel channel,
@@ -311,8 +239,8 @@ void check_size(SensorObservations& sensor, const ViewTask& task, const ViewResu
 }
 
 /// The board on the bed, and the lines in the pictures of known heights; pictures lie beside the table.
-void observe_bed(const Session& session, std::size_t index, const ExtractionOptions& extraction,
-                 SessionObservations& seen) {
+void observe_bed(const Session& session, std::size_t index, const BackgroundPictures* background,
+                 Channel channel, const ExtractionOptions& extraction, SessionObservations& seen) {
   const SessionSensor& sensor = session.sensors[index];
   if (!sensor.bed) return;
   const fs::path bed = session.folder / *sensor.bed, table = session.folder / *sensor.heights;
@@ -334,10 +262,12 @@ void observe_bed(const Session& session, std::size_t index, const ExtractionOpti
   result.board.image = bed.filename().string();
   result.board.corners = board.corners;
   for (const auto& [name, height] : read_image_travel(table, "height_mm")) {
-    const Image8 picture = read_image(table.parent_path() / name, session.channel);
+    const fs::path file = table.parent_path() / name;
+    Image8 picture = read_image(file, channel);
     if (picture.width != image.width || picture.height != image.height)
-      throw Error((table.parent_path() / name).string(), "has another size than " + bed.string(),
+      throw Error(file.string(), "has another size than " + bed.string(),
                   "give images of one camera and one setting");
+    if (background != nullptr) picture = std::get<Image8>(background->light_of(picture, file, channel));
     HeightView view{name, height, straight_lines(extract_stripes(picture, extraction).stripes)};
     if (view.lines.empty())
       seen.rejected.push_back({sensor.name, name, "no straight line; is the laser on in this picture?"});
@@ -353,12 +283,16 @@ SessionObservations observe_session(const Session& session, const ExtractionOpti
                                     const ProgressCallback& progress, const std::stop_token& stop) {
   SessionObservations seen;
   std::vector<ViewTask> tasks;
+  const auto backgrounds = sensor_backgrounds(session);
   for (std::size_t i = 0; i < session.sensors.size(); ++i)
-    for (auto& task : sensor_tasks(session, static_cast<int>(i), seen.rejected))
+    for (auto& task : sensor_tasks(session, static_cast<int>(i), backgrounds[i].get(), seen.rejected))
       tasks.push_back(std::move(task));
   for (auto& task : motion_tasks(session)) tasks.push_back(std::move(task));
 
   const std::vector<Channel> channels = sensor_channels(session, tasks);
+  for (std::size_t i = 0; i < channels.size(); ++i)
+    if (!session.sensors[i].no_laser || session.sensors[i].heights)
+      seen.channels.push_back({session.sensors[i].name, channels[i]});
   std::vector<ViewResult> results(tasks.size());
   StepCounter steps("looking for boards", "images", static_cast<std::int64_t>(tasks.size()), progress);
   parallel_for(tasks.size(), [&](std::size_t i) {
@@ -376,7 +310,8 @@ SessionObservations observe_session(const Session& session, const ExtractionOpti
   seen.observations = empty_observations(session);
   seen.observations.tool_poses = tool_poses;
   if (seen.observations.target.circle_mm == 0) seen.observations.target.circle_mm = common_circle_mm(results);
-  for (std::size_t i = 0; i < session.sensors.size(); ++i) observe_bed(session, i, extraction, seen);
+  for (std::size_t i = 0; i < session.sensors.size(); ++i)
+    observe_bed(session, i, backgrounds[i].get(), channels[i], extraction, seen);
   for (std::size_t i = 0; i < tasks.size(); ++i) {
     SensorObservations& sensor = seen.observations.sensors[static_cast<std::size_t>(tasks[i].sensor)];
     check_size(sensor, tasks[i], results[i]);

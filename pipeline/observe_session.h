@@ -36,6 +36,8 @@ struct SessionObservations {
   std::vector<RejectedImage> rejected;  ///< images without a usable board, or without a usable stripe
   int images = 0;
   int boards_found = 0;
+  /// Of each sensor with a laser: the channel that all its pictures are read in.
+  std::vector<std::pair<std::string, Channel>> channels;
 };
 
 /// Reads and looks at every image of the session, in parallel; the order of the views is that of the file

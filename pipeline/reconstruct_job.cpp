@@ -16,6 +16,7 @@
 #include "io/output_guard.h"
 #include "io/rig_file.h"
 #include "pipeline/camera_recorders.h"
+#include "pipeline/outside_range.h"
 #include "pipeline/record_frames.h"
 #include "pipeline/recording.h"
 #include "pipeline/run_record.h"
@@ -184,8 +185,9 @@ void write_record(const Run& run, const ReconstructResult& result, const fs::pat
                         yaml_text(skip.picture.reason));
   std::vector<fs::path> inputs{run.job.scan_file, run.job.rig_file};
   if (run.recording.table()) inputs.push_back(*run.recording.table());
-  write_run_record(cloud, "reconstruct", inputs,
-                   text + "extraction:\n" + indented(dump_yaml(run.job.extraction)));
+  write_run_record(
+      cloud, "reconstruct", inputs,
+      text + lines_yaml(result.lines) + "extraction:\n" + indented(dump_yaml(run.job.extraction)));
 }
 
 /// Gives the finished or interrupted files their names and their records.
@@ -251,6 +253,7 @@ std::string why_empty(const ReconstructResult& result) {
   if (summary.frames == 0)
     return "none of the frames has a position (nothing is written); number the travel table's frames as the "
            "pictures, or from 0 in their order";
+  if (summary.rays_missed > 0) return why_all_missed(summary, result.outside_range);
   std::string text =
       fmt::format("no stripe was found in any of the {} frames (nothing is written); ", summary.frames);
   constexpr int kDark = 60;
@@ -294,7 +297,7 @@ std::optional<Run> run_so_far(const ReconstructJob& job, std::string& why_not) {
 
 /// The scan itself.
 void scan(const Run& run, ScanOutput& output, const ProgressCallback& progress, const std::stop_token& stop,
-          ReconstructResult& result) {
+          LineWidths& widths, ReconstructResult& result) {
   const ReconstructJob& job = run.job;
   const auto start = std::chrono::steady_clock::now();
   const std::int64_t frames_before = output.tally().counts.frames;
@@ -303,6 +306,7 @@ void scan(const Run& run, ScanOutput& output, const ProgressCallback& progress, 
   result.summary = scan_profiles(input, job.rig, job.extraction, thread_count(job.threads),
                                  [&](const ScannedFrame& frame) {
                                    output.append(frame);
+                                   widths.add(frame);
                                    if (job.on_profile) job.on_profile(frame.profile);
                                    steps.step();
                                  });
@@ -310,9 +314,17 @@ void scan(const Run& run, ScanOutput& output, const ProgressCallback& progress, 
   result.frames_now += result.summary.frames - frames_before;
 }
 
+/// The scan's lines, with the channel that they were looked for in.
+std::vector<SensorLines> lines_of(const Run& run, const LineWidths& widths) {
+  std::vector<SensorLines> lines = widths.describe(run.job.rig);
+  for (std::size_t s = 0; s < lines.size(); ++s)
+    lines[s].channel = run.recording.channel(static_cast<int>(s));
+  return lines;
+}
+
 /// Looks for new frames until the recording is over; returns the last look at it.
 Run scan_what_comes(const ReconstructJob& job, std::optional<ScanOutput>& output,
-                    const ProgressCallback& progress, const std::stop_token& stop,
+                    const ProgressCallback& progress, const std::stop_token& stop, LineWidths& widths,
                     ReconstructResult& result) {
   using Clock = std::chrono::steady_clock;
   constexpr auto kPause = std::chrono::milliseconds(100);
@@ -336,7 +348,8 @@ Run scan_what_comes(const ReconstructJob& job, std::optional<ScanOutput>& output
     if (run) {
       if (!output) output.emplace(output_options(*run));
       if (!last_look) run->end_frame = ready_end(*run, !news);
-      if (run->end_frame > output->tally().next_frame || last_look) scan(*run, *output, progress, {}, result);
+      if (run->end_frame > output->tally().next_frame || last_look)
+        scan(*run, *output, progress, {}, widths, result);
       if (last_look) return std::move(*run);
     }
     // Listing a long folder takes its time: most of the machine stays free for the pictures.
@@ -351,6 +364,7 @@ void finish(const Run& run, ScanOutput& output, ReconstructResult& result) {
   result.skipped = output.tally().skipped;
   result.duplicate_pictures = run.recording.duplicate_pictures();
   result.warnings = run.recording.warnings();
+  result.outside_range = outside_range_texts(result.summary.outside, run.job.rig);
   result.without_picture = run.recording.without_picture();
   result.origin = origin_of(run);
   refuse_unusable_pictures(run.job, result);
@@ -367,8 +381,10 @@ ReconstructResult reconstruct_following(ReconstructJob job, const ProgressCallba
   const std::stop_callback by_user(stop, end_it), by_failure(recorders.failed(), end_it);
   ReconstructResult result;
   std::optional<ScanOutput> output;
-  const Run run = scan_what_comes(job, output, progress, over.get_token(), result);
+  LineWidths widths(job.rig.sensors.size());
+  const Run run = scan_what_comes(job, output, progress, over.get_token(), widths, result);
   recorders.end();
+  result.lines = lines_of(run, widths);
   finish(run, *output, result);
   return result;
 }
@@ -404,7 +420,9 @@ ReconstructResult reconstruct(const ReconstructJob& job, const ProgressCallback&
     tell_earlier_points(output.was_complete() ? job.cloud : output.partial_cloud(), origin_of(run),
                         points_before, job.on_profile);
   ReconstructResult result;
-  scan(run, output, progress, stop, result);
+  LineWidths widths(job.rig.sensors.size());
+  scan(run, output, progress, stop, widths, result);
+  result.lines = lines_of(run, widths);
   finish(run, output, result);
   return result;
 }

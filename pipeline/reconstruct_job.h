@@ -18,6 +18,7 @@
 #include "io/session_file.h"
 #include "pipeline/job.h"
 #include "pipeline/scan_journal.h"
+#include "pipeline/scan_lines.h"
 #include "reconstruct/scanner.h"
 
 namespace lightstripe {
@@ -57,10 +58,12 @@ std::pair<std::int64_t, std::int64_t> frames_to_reconstruct(const ReconstructJob
 
 struct ReconstructResult {
   ScanSummary summary;
-  std::vector<NamedSkip> skipped;                    ///< the first of them
-  std::vector<std::string> duplicate_pictures;       ///< pictures whose number another one has
-  std::vector<std::string> warnings;                 ///< of the recording: see Recording::warnings()
-  FrameRanges without_picture;                       ///< frames of the table before or behind all pictures
+  std::vector<NamedSkip> skipped;               ///< the first of them
+  std::vector<std::string> duplicate_pictures;  ///< pictures whose number another one has
+  std::vector<std::string> warnings;            ///< of the recording: see Recording::warnings()
+  FrameRanges without_picture;                  ///< frames of the table before or behind all pictures
+  std::vector<SensorLines> lines;               ///< of this run, one a sensor
+  std::vector<std::string> outside_range;       ///< a sentence for each sensor: see outside_range_texts()
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< what the cloud's coordinates count from, mm
   std::int64_t first_frame = 0, end_frame = 0;
   std::int64_t frames_now = 0;          ///< of this run, without those of the one that it went on from

@@ -25,7 +25,11 @@ std::size_t sensor_of_name(const Rig& rig, const std::string& name, const std::s
 }  // namespace
 
 Recording::Recording(const Scan& scan, const std::string& scan_file, const Rig& rig)
-    : rig_(rig), sources_(rig.sensors.size()), travel_(scan.travel), step_(scan.travel_step) {
+    : rig_(rig),
+      sources_(rig.sensors.size()),
+      backgrounds_(rig.sensors.size()),
+      travel_(scan.travel),
+      step_(scan.travel_step) {
   open_sensors(scan, scan_file);
   read_positions(scan, scan_file);
   std::vector<const FrameSource*> sources;
@@ -33,6 +37,7 @@ Recording::Recording(const Scan& scan, const std::string& scan_file, const Rig& 
   map_ = map_frames(sources, frames_of_table(), scan_file + ": frames");
   refuse_other_size(scan_file);
   look_for_losses();
+  look_at_backgrounds();
 }
 
 void Recording::open_sensors(const Scan& scan, const std::string& scan_file) {
@@ -40,9 +45,42 @@ void Recording::open_sensors(const Scan& scan, const std::string& scan_file) {
     const std::size_t sensor = sensor_of_name(rig_, name, scan_file + ": frames." + name,
                                               "use one of the sensors' names in the rig file");
     sources_[sensor] = open_frames(scan.folder, pattern, scan.channel);
+    open_background(scan, sensor, name, pattern, scan_file);
   }
   if (scan.frames.empty())
     throw Error(scan_file + ": frames", "names no sensor", "add a line '<sensor>: <pattern>'");
+}
+
+void Recording::open_background(const Scan& scan, std::size_t sensor, const std::string& name,
+                                const std::string& pattern, const std::string& scan_file) {
+  const std::string background = scan.background.pattern(name);
+  if (background.empty()) return;
+  backgrounds_[sensor] =
+      std::make_unique<BackgroundPictures>(scan.folder, background, scan_file + ": background");
+  const Channel channel = sources_[sensor]->channel(), wanted = channel_for_background(channel);
+  if (scan.channel == Channel::kAuto && wanted != channel)
+    sources_[sensor] = open_frames(scan.folder, pattern, wanted);
+}
+
+/// What changes slowly shows in a few frames.
+void Recording::look_at_backgrounds() {
+  constexpr std::int64_t kLooks = 4;
+  for (std::size_t s = 0; s < sources_.size(); ++s) {
+    if (!sources_[s] || !backgrounds_[s]) continue;
+    const std::int64_t looks = std::min(kLooks, sources_[s]->size());
+    for (std::int64_t k = 0; k < looks; ++k) {
+      const std::int64_t i = looks == 1 ? 0 : k * (sources_[s]->size() - 1) / (looks - 1);
+      std::string doubt;
+      try {
+        backgrounds_[s]->light_of(sources_[s]->read(i), sources_[s]->name(i), sources_[s]->channel(), &doubt);
+      } catch (const Error&) {
+        continue;  // told when the frame's turn comes
+      }
+      if (doubt.empty()) continue;
+      warnings_.push_back(doubt);
+      break;
+    }
+  }
 }
 
 void Recording::read_positions(const Scan& scan, const std::string& scan_file) {
@@ -180,16 +218,30 @@ const FrameSource* Recording::source_of(std::int64_t frame, int sensor, std::int
   return source.get();
 }
 
+GreyImage Recording::light_of(const FrameSource& source, std::int64_t index, int sensor) const {
+  const auto& background = backgrounds_[static_cast<std::size_t>(sensor)];
+  return background->light_of(source.read(index), source.name(index), source.channel());
+}
+
 std::optional<GreyImage> Recording::read(std::int64_t frame, int sensor) const {
   std::int64_t index = 0;
   const FrameSource* source = source_of(frame, sensor, index);
-  return source == nullptr ? std::nullopt : std::optional(source->read(index));
+  if (source == nullptr) return std::nullopt;
+  return backgrounds_[static_cast<std::size_t>(sensor)] ? light_of(*source, index, sensor)
+                                                        : source->read(index);
 }
 
 std::optional<Picture> Recording::look(std::int64_t frame, int sensor) const {
   std::int64_t index = 0;
   const FrameSource* source = source_of(frame, sensor, index);
-  return source == nullptr ? std::nullopt : std::optional(source->look(index));
+  if (source == nullptr) return std::nullopt;
+  if (backgrounds_[static_cast<std::size_t>(sensor)]) return Picture(light_of(*source, index, sensor));
+  return source->look(index);
+}
+
+std::optional<Channel> Recording::channel(int sensor) const {
+  const auto& source = sources_[static_cast<std::size_t>(sensor)];
+  return source ? std::optional(source->channel()) : std::nullopt;
 }
 
 std::optional<FramePosition> Recording::position(std::int64_t frame) const {

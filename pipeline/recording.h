@@ -15,6 +15,7 @@
 #include "io/frame_numbers.h"
 #include "io/images.h"
 #include "io/session_file.h"
+#include "pipeline/background_pictures.h"
 #include "reconstruct/frame_ranges.h"
 #include "reconstruct/travel.h"
 
@@ -46,6 +47,8 @@ class Recording {
   /// What the user should know of the recording before he trusts the result: an encoder that jumps, counters
   /// that start apart, a video that is cut short.
   const std::vector<std::string>& warnings() const { return warnings_; }
+  /// The channel in which a sensor's pictures are read; nothing where the scan names none of it.
+  std::optional<Channel> channel(int sensor) const;
   /// Frames of the table before the first and behind the last picture.
   const FrameRanges& without_picture() const { return without_picture_; }
   /// Where the cloud's coordinates count from, so that 32-bit numbers carry 0.001 mm; 0 where they do anyway.
@@ -55,6 +58,10 @@ class Recording {
   /// Where the picture is; null: the scan names none for this sensor.
   const FrameSource* source_of(std::int64_t frame, int sensor, std::int64_t& index) const;
   void open_sensors(const Scan& scan, const std::string& scan_file);
+  void open_background(const Scan& scan, std::size_t sensor, const std::string& name,
+                       const std::string& pattern, const std::string& scan_file);
+  void look_at_backgrounds();
+  GreyImage light_of(const FrameSource& source, std::int64_t index, int sensor) const;
   void read_positions(const Scan& scan, const std::string& scan_file);
   void refuse_other_size(const std::string& scan_file) const;
   std::vector<std::int64_t> frames_of_table() const;
@@ -64,6 +71,7 @@ class Recording {
 
   const Rig& rig_;
   std::vector<std::unique_ptr<FrameSource>> sources_;  ///< by the rig's sensors; null: not in the scan
+  std::vector<std::unique_ptr<BackgroundPictures>> backgrounds_;  ///< likewise; null: none to subtract
   FrameMap map_;
   TravelSource travel_ = TravelSource::kNone;
   double step_ = 0;

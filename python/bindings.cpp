@@ -107,9 +107,9 @@ py::dict quality_of(const Rig& rig) {
 Channel channel_of(const std::string& name) {
   for (const auto& entry : enum_names(Channel{}))
     if (entry.name == name) return entry.value;
-  throw py::value_error(
-      "'" + name +
-      "' is no channel: use auto, gray, or red, green or blue, alone or with -excess, -laser or -clipped");
+  throw py::value_error("'" + name +
+                        "' is no channel: use auto, gray, or red, green or blue, alone or with -excess, "
+                        "-laser, -clipped or -textured");
 }
 
 Eigen::Matrix3d camera_matrix(const Camera& camera) {

@@ -8,7 +8,7 @@
 #include <limits>
 #include <numeric>
 
-#include "reconstruct/laser_reach.h"
+#include "reconstruct/laser_assignment.h"
 
 namespace lightstripe {
 namespace {
@@ -125,13 +125,20 @@ std::vector<int> paired_in_order(const std::vector<Stripe>& stripes, const Senso
 
 }  // namespace
 
-std::vector<std::optional<int>> assign_laser_planes(const std::vector<Stripe>& stripes,
-                                                    const Sensor& sensor) {
-  if (sensor.laser_planes.size() == 1) return std::vector<std::optional<int>>(stripes.size(), 0);
+std::vector<LineDecision> decide_laser_planes(const std::vector<Stripe>& stripes, const Sensor& sensor) {
+  if (sensor.laser_planes.size() == 1) return std::vector<LineDecision>(stripes.size(), {0});
   if (sensor.depth_range_mm[1] > 0) return assign_by_reach(stripes, sensor);
   const std::vector<int> paired = paired_in_order(stripes, sensor);
-  if (paired.empty()) return std::vector<std::optional<int>>(stripes.size());
-  return {paired.begin(), paired.end()};
+  std::vector<LineDecision> decisions(stripes.size());
+  for (std::size_t i = 0; i < paired.size(); ++i) decisions[i].plane = paired[i];
+  return decisions;
+}
+
+std::vector<std::optional<int>> assign_laser_planes(const std::vector<Stripe>& stripes,
+                                                    const Sensor& sensor) {
+  std::vector<std::optional<int>> planes;
+  for (const LineDecision& decision : decide_laser_planes(stripes, sensor)) planes.push_back(decision.plane);
+  return planes;
 }
 
 }  // namespace lightstripe

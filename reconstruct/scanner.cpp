@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <atomic>
 #include <exception>
 
@@ -90,6 +91,15 @@ SensorStripes read_and_use(const ScanInput& input, const Rig& rig, std::int64_t 
   return found;
 }
 
+double median_width(const Stripe& stripe) {
+  std::vector<double> widths;
+  widths.reserve(stripe.points.size());
+  for (const StripePoint& p : stripe.points) widths.push_back(p.width);
+  const auto middle = widths.begin() + static_cast<std::ptrdiff_t>(widths.size() / 2);
+  std::nth_element(widths.begin(), middle, widths.end());
+  return *middle;
+}
+
 ScannedFrame scan_frame(const PlacedFrame& placed, const ScanInput& input, const Rig& rig,
                         const FrameExtractor& extract) {
   ScannedFrame out;
@@ -102,6 +112,9 @@ ScannedFrame scan_frame(const PlacedFrame& placed, const ScanInput& input, const
     if (found.unreadable) out.skipped.push_back({sensor, found.reason});
     if (!found.has_picture) continue;
     ++out.pictures;
+    for (const Stripe& stripe : found.stripes)
+      if (!stripe.points.empty())
+        out.lines.push_back({sensor, static_cast<int>(stripe.points.size()), median_width(stripe)});
     triangulate_stripes(found.stripes, rig, sensor, placed.position, out.profile);
   }
   if (input.encode) input.encode(out);
@@ -128,11 +141,12 @@ void count(const ScannedFrame& frame, ScanCounts& counts) {
 }
 
 /// Counts a frame and hands it on; returns what went wrong with it, if anything.
-std::exception_ptr hand_on(FrameOutcome& outcome, const FrameSink& sink, ScanCounts& counts) {
+std::exception_ptr hand_on(FrameOutcome& outcome, const FrameSink& sink, ScanSummary& summary) {
   if (outcome.error) return outcome.error;
   ScannedFrame& scanned = outcome.scanned;
-  count(scanned, counts);
-  scanned.counts = counts;
+  count(scanned, summary);
+  scanned.counts = summary;
+  for (const OutsideRange& outside : scanned.profile.outside) add_outside_range(outside, summary.outside);
   try {
     sink(scanned);
   } catch (...) {

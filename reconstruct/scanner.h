@@ -36,20 +36,28 @@ struct ScanCounts {
   std::int64_t pictures_skipped = 0;
 };
 
+/// How wide one line is: the median of its points' widths.
+struct LineWidth {
+  int sensor = 0, points = 0;
+  double width_px = 0;
+};
+
 /// One frame on its way to the sink.
 struct ScannedFrame {
   Profile profile;
   bool travel_interpolated = false;
   int pictures = 0;  ///< that were read and looked at
   std::vector<SkippedPicture> skipped;
+  std::vector<LineWidth> lines;
   std::vector<std::string> encoded;  ///< what ScanInput::encode made of the profile
   ScanCounts counts;                 ///< of the scan up to and with this frame; not yet known to `encode`
 };
 
 struct ScanSummary : ScanCounts {
   FrameRanges without_position;
-  FrameRanges interpolated;  ///< their travel lies between two readings
-  bool stopped = false;      ///< ended by ScanInput::stop
+  FrameRanges interpolated;             ///< their travel lies between two readings
+  bool stopped = false;                 ///< ended by ScanInput::stop
+  std::vector<OutsideRange> outside{};  ///< by sensor; of this run alone, without `before`
 };
 
 struct ScanInput {

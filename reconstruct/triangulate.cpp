@@ -3,6 +3,7 @@
 #include "reconstruct/triangulate.h"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -94,7 +95,25 @@ ProfilePoint profile_point(const FrameGeometry& geometry, const PlanePoint& met,
   return out;
 }
 
+void count_missed(int sensor, std::size_t points, const LineDecision& decision, Profile& profile) {
+  profile.num_missed += static_cast<int>(points);
+  if (!decision.may_lie_outside) return;
+  OutsideRange here{sensor, static_cast<std::int64_t>(points), 0, 0};
+  if (decision.outside_mm) here.nearest_mm = decision.outside_mm->front();
+  if (decision.outside_mm) here.farthest_mm = decision.outside_mm->back();
+  add_outside_range(here, profile.outside);
+}
+
 }  // namespace
+
+void add_outside_range(const OutsideRange& more, std::vector<OutsideRange>& all) {
+  auto same = std::find_if(all.begin(), all.end(), [&](const auto& o) { return o.sensor == more.sensor; });
+  if (same == all.end()) same = all.insert(all.end(), {more.sensor, 0, 0, 0});
+  same->points += more.points;
+  if (more.farthest_mm <= 0) return;
+  same->nearest_mm = same->farthest_mm > 0 ? std::min(same->nearest_mm, more.nearest_mm) : more.nearest_mm;
+  same->farthest_mm = std::max(same->farthest_mm, more.farthest_mm);
+}
 
 Rigid3 result_from_rig(const Motion& motion, const FramePosition& position) {
   if (position.world_from_rig) return *position.world_from_rig;
@@ -117,14 +136,14 @@ void triangulate_stripes(const std::vector<Stripe>& stripes, const Rig& rig, int
   const Sensor& of = rig.sensors[static_cast<std::size_t>(sensor)];
   const FrameGeometry geometry{rig, position, of, of.rig_from_camera.rotation.toRotationMatrix(),
                                result_from_rig(rig.motion, position)};
-  const auto plane_of_line = assign_laser_planes(stripes, of);
+  const auto decisions = decide_laser_planes(stripes, of);
   for (std::size_t line = 0; line < stripes.size(); ++line) {
     const auto& points = stripes[line].points;
-    if (!plane_of_line[line]) {
-      profile.num_missed += static_cast<int>(points.size());
+    if (!decisions[line].plane) {
+      count_missed(sensor, points.size(), decisions[line], profile);
       continue;
     }
-    const Plane& plane = of.laser_planes[static_cast<std::size_t>(*plane_of_line[line])];
+    const Plane& plane = of.laser_planes[static_cast<std::size_t>(*decisions[line].plane)];
     for (const StripePoint& seen : points) {
       const auto met = meet_plane(of.camera, plane, seen);
       if (!met) {

@@ -45,6 +45,9 @@ std::string describe_lenses(const std::vector<LensChoice>& lenses) {
 
 std::string describe_calibration(const SessionObservations& seen, const CalibrationResult& result) {
   std::string text = fmt::format("boards: found in {} of {} images\n", seen.boards_found, seen.images);
+  for (const auto& [sensor, channel] : seen.channels)
+    if (channel != Channel::kGray)
+      text += fmt::format("{}: lines are looked for in the channel {}\n", sensor, enum_name(channel));
   text += describe_rejected(seen.rejected);
   text += describe_views(result.summary.views);
   text += describe_lenses(result.summary.lenses);

@@ -93,6 +93,12 @@ double axis_sigma_mm(const JointAdjustment& adjustment) {
 
 }  // namespace
 
+Eigen::MatrixXd covariance_of(const JointAdjustment& adjustment,
+                              const std::function<VectorXd(const RigState&)>& f) {
+  const MatrixXd J = derivative(adjustment, f);
+  return J * adjustment.covariance * J.transpose();
+}
+
 std::map<std::string, double> parameter_sigmas(const SessionViews& session,
                                                const JointAdjustment& adjustment) {
   using Kind = GlobalBlock::Kind;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -18,6 +19,11 @@ namespace lightstripe {
 /// points: root of the summed variances of their components.
 std::map<std::string, double> parameter_sigmas(const SessionViews& session,
                                                const JointAdjustment& adjustment);
+
+/// Covariance of f(state) by what the views leave open of the shared unknowns: J C J^T, J by central
+/// differences.
+Eigen::MatrixXd covariance_of(const JointAdjustment& adjustment,
+                              const std::function<Eigen::VectorXd(const RigState&)>& f);
 
 /// Errors of the points (y, z of the rig frame) where the calibration saw stripes, over all sensors together:
 /// root mean square of their length, mm.

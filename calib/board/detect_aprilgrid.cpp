@@ -90,12 +90,20 @@ void place_corners(const std::vector<Tag>& tags, const Eigen::Matrix3d& map, con
   }
 }
 
+/// The smaller of a tag's two heights over its sides: how thin it is seen.
+double height_px(const Tag& tag) {
+  const Vector2d x = tag.corners[1] - tag.corners[0], y = tag.corners[2] - tag.corners[1];
+  return std::abs(x.x() * y.y() - x.y() * y.x()) / std::max(x.norm(), y.norm());
+}
+
 void refine(const cv::Mat& gray, const Target& target, const std::vector<Tag>& tags,
             std::vector<Vector2d>& corners) {
   for (const Tag& tag : tags) {
     const double side = (tag.corners[1] - tag.corners[0]).norm();
-    const int half =
-        std::max(2, static_cast<int>(0.7 * side * std::min(target.tag_gap_mm / target.marker_mm, 0.3)));
+    // The window stays clear of the next corner, a gap away, and of the tag's bits, along the tag's shorter
+    // side.
+    const double gap_px = height_px(tag) * std::min(target.tag_gap_mm / target.marker_mm, 0.3);
+    const int half = std::max(2, static_cast<int>(std::lround(0.6 * gap_px)));
     for (const int i : corners_of_tag(target, tag.id)) {
       auto& corner = corners[static_cast<std::size_t>(i)];
       if (!is_seen(corner)) continue;

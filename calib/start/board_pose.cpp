@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "calib/observations.h"
 #include "calib/board/board_homography.h"
+#include "calib/observations.h"
 #include "calib/start/refine_views.h"
 
 namespace lightstripe {

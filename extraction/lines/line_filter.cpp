@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "extraction/follow/bridge.h"
+#include "extraction/image/background.h"
 #include "extraction/kernels/width_rule.h"
 #include "extraction/lines/line_measure.h"
 
@@ -274,6 +275,16 @@ void drop_lines(LineSet& lines, std::vector<LineFacts>& facts) {
   facts.resize(kept);
 }
 
+namespace {
+
+/// Points that were clipped before their background was taken away.
+void flag_clipped(const Trial& t, const LineRange& r, LineSet& lines) {
+  for (std::size_t i = r.begin; i < r.end; ++i)
+    if (t.w.colour[i] == kClippedPlace) lines.points[i].flags |= kStripeSaturated;
+}
+
+}  // namespace
+
 template <class T>
 void filter_lines(ImageView<T> image, const DerivativeKernels& kernels, double noise,
                   const LineFilterOptions& options, double width_slack, LineFilterWorkspace& workspace,
@@ -286,9 +297,11 @@ void filter_lines(ImageView<T> image, const DerivativeKernels& kernels, double n
   workspace.kept.clear();
   for (std::size_t k = 0; k < lines.lines.size(); ++k) {
     trial.profile_noise = noise / std::sqrt(workspace.measure.averaged[k]);
-    if (trial.colour_known)
+    if (trial.colour_known) {
       place_points(image, lines, lines.lines[k], median_width(trial, lines, lines.lines[k]),
                    workspace.colours, workspace.colour);
+      flag_clipped(trial, lines.lines[k], lines);
+    }
     mend_or_cut(trial, lines, lines.lines[k]);
   }
   std::swap(lines.lines, workspace.kept);

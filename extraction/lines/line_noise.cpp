@@ -107,12 +107,15 @@ LineErrors errors_of_line(ImageView<T> image, const DerivativeKernels& kernels, 
                          lines, r, [](const StripePoint& p) { return p.strength; }, w.values));
   const double camera = std::pow(centre_sigma(kernels, background_noise, strength), 2);
   r.shared_px = kSharedBySigma * kernels.sigma;
-  const RowScatter scatter = measure_row_scatter(image, kernels, lines, r, w.rows);
+  const RowScatter scatter = fit_scatter(w.differences[w.next++], w.common);
   e.grain = scatter.grained_point(kernels.sigma);
   const double photons = photon_noise(image, lines, r, background_noise, e.intensity, w.values);
   e.photons = std::pow(centre_sigma(kernels, std::sqrt(photons * e.intensity), strength), 2);
   e.row = kSharedBySigma * kernels.sigma * (camera + e.photons);
-  if (scatter.rows == 0) return e;
+  if (scatter.rows == 0) {
+    e.row += scatter.grain_variance;
+    return e;
+  }
   // Speckle makes the ridge noisy as well: then the rows alone decide. Without it the ridge knows better,
   // unless the rows clearly disagree (clipping, which hides the ridge's noise).
   const double white = scatter.white_point(kernels.sigma);
@@ -148,6 +151,13 @@ double predicted_error(const LineErrors& e, const DerivativeKernels& kernels, co
 }  // namespace
 
 template <class T>
+void look_at_scatter(ImageView<T> image, const DerivativeKernels& kernels, const LineSet& lines,
+                     ErrorWorkspace& w) {
+  for (const LineRange& r : lines.lines)
+    w.differences.push_back(look_at_rows(image, kernels, lines, r, w.rows));
+}
+
+template <class T>
 void predict_errors(ImageView<T> image, const DerivativeKernels& kernels, double background_noise,
                     LineSet& lines, ErrorWorkspace& w) {
   for (LineRange& r : lines.lines) {
@@ -162,6 +172,10 @@ template double noise_on_ridge<std::uint8_t>(ImageView8, const LineSet&, const L
                                              std::vector<float>&);
 template double noise_on_ridge<std::uint16_t>(ImageView16, const LineSet&, const LineRange&, double,
                                               std::vector<float>&);
+template void look_at_scatter<std::uint8_t>(ImageView8, const DerivativeKernels&, const LineSet&,
+                                            ErrorWorkspace&);
+template void look_at_scatter<std::uint16_t>(ImageView16, const DerivativeKernels&, const LineSet&,
+                                             ErrorWorkspace&);
 template void predict_errors<std::uint8_t>(ImageView8, const DerivativeKernels&, double, LineSet&,
                                            ErrorWorkspace&);
 template void predict_errors<std::uint16_t>(ImageView16, const DerivativeKernels&, double, LineSet&,

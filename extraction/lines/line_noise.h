@@ -22,8 +22,17 @@ double noise_on_ridge(ImageView<T> image, const LineSet& lines, const LineRange&
 /// Scratch memory.
 struct ErrorWorkspace {
   RowScatterWorkspace rows;
+  std::vector<RowDifferences> differences;  ///< of all lines of the picture, in order
+  CommonScatter common;
+  std::size_t next = 0;  ///< of the differences, that predict_errors() comes to
   std::vector<float> values;
 };
+
+/// Looks at the rows of each line; all lines of a picture come before common_scatter() and predict_errors(),
+/// which takes them in the same order.
+template <class T>
+void look_at_scatter(ImageView<T> image, const DerivativeKernels& kernels, const LineSet& lines,
+                     ErrorWorkspace& workspace);
 
 /// Sets sigma_px of every point: the camera's noise by the point's strength, and the scatter of the rows
 /// along its line (photon noise, speckle, texture).

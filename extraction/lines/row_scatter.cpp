@@ -14,11 +14,13 @@ namespace {
 constexpr double kIndependent = 0.3989422804;  // 1 / sqrt(2 pi): the grain of rows without correlation
 constexpr double kRootTwoPi = 2.5066282746;
 constexpr std::size_t kLeastRows = 24;
-constexpr std::size_t kLags = 6;              // rows
+constexpr std::size_t kLags = RowDifferences::kLags;
 using LagValues = std::array<double, kLags>;  ///< of rows 1, 2, ... apart
-/// A mean square over n rows scatters by some 1.7 / sqrt(n) of itself: misfits of six lags that differ by
-/// less than this over n are equally good. Rows count as independent unless they clearly are not.
-constexpr double kTolerance = 1, kToleranceOfWhite = 25;
+/// Rows that the common variance counts for beside a line's own.
+constexpr double kCommonRows = 100;
+/// A mean square over n rows scatters by some 1.7 / sqrt(n) of itself: misfits of six lags, times n, that
+/// differ by less than this are equally good. Rows count as independent unless they clearly are not.
+constexpr double kTolerance = 1, kToleranceOfWhite = 25, kToleranceOfAnother = 3;  // of another line
 constexpr float kGap = std::numeric_limits<float>::quiet_NaN();
 
 /// The row or column that crosses a line at one point.
@@ -166,29 +168,46 @@ LagValues expected_differences(double grain, double sigma, double step) {
   return out;
 }
 
-/// Of the fits by every grain, the one of the smallest grain that is as good as the best within the
-/// statistics of so many rows: coarse grain shows little in the differences, but weighs much in the points.
-RowScatter fit_scatter(const LagValues& seen, double rows, double sigma, double step) {
-  constexpr int kGrains = 24;
-  const LagValues white = expected_differences(kIndependent * step, sigma, step);
-  std::array<RowScatter, kGrains> fits{};
-  std::array<double, kGrains> misfits{};
-  double least = std::numeric_limits<double>::max(), grain = 0.6 * step;
-  const double ratio = std::pow(2 * sigma / grain, 1.0 / (kGrains - 2));
-  for (std::size_t i = 0; i < kGrains; ++i) {
-    // The first is without grain.
-    const TwoShares shares = i == 0 ? fit_shares(seen, white, white)
-                                    : fit_shares(seen, white, expected_differences(grain, sigma, step));
-    fits[i] = i == 0 ? RowScatter{shares.white + shares.grained, kIndependent * step, 0, grain}
-                     : RowScatter{shares.white, kIndependent * step, shares.grained, grain};
-    misfits[i] = shares.misfit;
-    least = std::min(least, shares.misfit);
-    if (i > 0) grain *= std::max(ratio, 1.01);
+/// The grains that are tried, px; the first is for rows without grain.
+struct Grains {
+  static constexpr std::size_t kCount = 24;
+  std::array<double, kCount> px{};
+
+  Grains(double step, double sigma) {
+    const double ratio = std::pow(2 * sigma / (0.6 * step), 1.0 / (kCount - 2));
+    for (std::size_t i = 1; i < kCount; ++i)
+      px.at(i) = i == 1 ? 0.6 * step : px.at(i - 1) * std::max(ratio, 1.01);
   }
-  if (misfits[0] <= least + kToleranceOfWhite / rows) return fits[0];
+};
+
+TwoShares shares_of(const RowDifferences& line, const LagValues& white, double grain) {
+  return fit_shares(line.seen, white, grain > 0 ? expected_differences(grain, line.sigma, line.step) : white);
+}
+
+/// The smallest grain that is as good as the best within the statistics of so many rows: coarse grain shows
+/// little in the differences, but weighs much in the points. 0 where the rows may be independent.
+double common_grain(std::span<const RowDifferences> lines) {
+  double step = std::numeric_limits<double>::max(), sigma = 0, count = 0;
+  for (const RowDifferences& line : lines) {
+    if (line.rows == 0) continue;
+    step = std::min(step, line.step);
+    sigma = std::max(sigma, line.sigma);
+    count += 1;
+  }
+  if (count == 0) return 0;
+  const Grains grains(step, sigma);
+  std::array<double, Grains::kCount> misfits{};
+  for (const RowDifferences& line : lines) {
+    if (line.rows == 0) continue;
+    const LagValues white = expected_differences(kIndependent * line.step, line.sigma, line.step);
+    for (std::size_t i = 0; i < misfits.size(); ++i)
+      misfits.at(i) += line.rows * shares_of(line, white, grains.px.at(i)).misfit;
+  }
+  const double least = *std::min_element(misfits.begin(), misfits.end());
+  if (misfits[0] <= least + kToleranceOfWhite + kToleranceOfAnother * (count - 1)) return 0;
   std::size_t best = 1;
-  while (misfits[best] > least + kTolerance / rows) ++best;
-  return fits[best];
+  while (misfits.at(best) > least + kTolerance) ++best;
+  return grains.px.at(best);
 }
 
 /// Variance of a Steger point in white or fine-grained noise by its scale across the line, up to a factor.
@@ -218,24 +237,67 @@ double RowScatter::grained_point(double sigma) const {
 double RowScatter::grained_density() const { return kRootTwoPi * grain_variance * grain_px; }
 
 template <class T>
-RowScatter measure_row_scatter(ImageView<T> image, const DerivativeKernels& kernels, const LineSet& lines,
-                               const LineRange& range, RowScatterWorkspace& w) {
-  const double cosine = collect_offsets(image, kernels, lines, range, w.offsets), sigma = kernels.sigma;
-  LagValues seen{};
+RowDifferences look_at_rows(ImageView<T> image, const DerivativeKernels& kernels, const LineSet& lines,
+                            const LineRange& range, RowScatterWorkspace& w) {
+  const double cosine = collect_offsets(image, kernels, lines, range, w.offsets);
+  RowDifferences line;
+  line.sigma = kernels.sigma;
+  line.step = 1 / cosine;
   for (std::size_t k = 0; k < kLags; ++k) {
-    seen[k] = second_difference(w.offsets, k + 1, w.squares);
-    if (!(seen[k] > 0)) return {};
+    line.seen.at(k) = second_difference(w.offsets, k + 1, w.squares);
+    if (!(line.seen.at(k) > 0)) return line;
   }
-  RowScatter scatter = fit_scatter(seen, static_cast<double>(w.squares.size()), sigma, 1 / cosine);
-  scatter.rows = static_cast<double>(w.squares.size());
+  line.rows = static_cast<double>(w.squares.size());
   // Rows that cross the line obliquely look at it with a scale smaller by the cosine.
   const double width = lines.points[range.begin + range.size() / 2].width;
-  const double factor = variance_at_scale(width, sigma) / variance_at_scale(width, sigma * cosine);
-  scatter.white_variance *= factor;
-  scatter.grain_variance *= factor;
+  line.factor = variance_at_scale(width, line.sigma) / variance_at_scale(width, line.sigma * cosine);
+  return line;
+}
+
+CommonScatter common_scatter(std::span<const RowDifferences> lines) {
+  CommonScatter common{common_grain(lines), 0};
+  if (common.grain_px == 0) return common;
+  double rows = 0, variance = 0;
+  for (const RowDifferences& line : lines) {
+    if (line.rows == 0) continue;
+    const LagValues white = expected_differences(kIndependent * line.step, line.sigma, line.step);
+    rows += line.rows;
+    variance += line.rows * line.factor * shares_of(line, white, common.grain_px).grained / line.sigma;
+  }
+  common.grain_per_px = variance / rows;
+  return common;
+}
+
+RowScatter fit_scatter(const RowDifferences& line, const CommonScatter& common) {
+  RowScatter scatter;
+  scatter.row_px = kIndependent * line.step;
+  scatter.rows = line.rows;
+  if (common.grain_px > 0) scatter.grain_px = common.grain_px;
+  if (line.rows > 0) {
+    const LagValues white = expected_differences(scatter.row_px, line.sigma, line.step);
+    const TwoShares shares = shares_of(line, white, common.grain_px);
+    const double grained = common.grain_px > 0 ? shares.grained : 0.0;
+    scatter.white_variance = line.factor * (shares.white + (common.grain_px > 0 ? 0.0 : shares.grained));
+    scatter.grain_variance = line.factor * grained;
+  }
+  scatter.grain_variance =
+      (line.rows * scatter.grain_variance + kCommonRows * common.grain_per_px * line.sigma) /
+      (line.rows + kCommonRows);
   return scatter;
 }
 
+template <class T>
+RowScatter measure_row_scatter(ImageView<T> image, const DerivativeKernels& kernels, const LineSet& lines,
+                               const LineRange& range, RowScatterWorkspace& w) {
+  const RowDifferences line = look_at_rows(image, kernels, lines, range, w);
+  if (line.rows == 0) return {};
+  return fit_scatter(line, common_scatter({&line, 1}));
+}
+
+template RowDifferences look_at_rows<std::uint8_t>(ImageView8, const DerivativeKernels&, const LineSet&,
+                                                   const LineRange&, RowScatterWorkspace&);
+template RowDifferences look_at_rows<std::uint16_t>(ImageView16, const DerivativeKernels&, const LineSet&,
+                                                    const LineRange&, RowScatterWorkspace&);
 template RowScatter measure_row_scatter<std::uint8_t>(ImageView8, const DerivativeKernels&, const LineSet&,
                                                       const LineRange&, RowScatterWorkspace&);
 template RowScatter measure_row_scatter<std::uint16_t>(ImageView16, const DerivativeKernels&, const LineSet&,

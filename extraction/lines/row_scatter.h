@@ -4,7 +4,9 @@
 // machining marks, whatever their cause.
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "core/image.h"
@@ -32,14 +34,42 @@ struct RowScatter {
 };
 
 /// Scratch memory.
+/// How much the rows of one line differ, as it is seen.
+struct RowDifferences {
+  static constexpr std::size_t kLags = 6;
+  std::array<double, kLags>
+      seen{};         ///< px^2: a sixth of the mean squared second difference, 1, 2 ... rows apart
+  double rows = 0;    ///< that were looked at; 0: too few
+  double sigma = 1;   ///< px, of the kernels
+  double step = 1;    ///< px along the line from row to row
+  double factor = 1;  ///< of the variance, for rows that cross the line obliquely
+};
+
 struct RowScatterWorkspace {
   std::vector<float> offsets;  ///< px across the line, of each row; NaN between two stretches
   std::vector<float> squares;
 };
 
-/// Measures the scatter of one line in an image: each row's centre against the line, which the kernels have
-/// smoothed, so that neither bends nor corners count. Fits the second differences of rows 1 to 6 apart. All
-/// zero where the line has less than 24 usable rows.
+/// Looks at one line in an image: each row's centre against the line, which the kernels have smoothed, so
+/// that neither bends nor corners count.
+template <class T>
+RowDifferences look_at_rows(ImageView<T> image, const DerivativeKernels& kernels, const LineSet& lines,
+                            const LineRange& range, RowScatterWorkspace& workspace);
+
+/// What the lines of one picture share: the grain is that of the lens, and its variance grows as the width.
+struct CommonScatter {
+  double grain_px = 0;      ///< 0: the rows are independent
+  double grain_per_px = 0;  ///< grained variance over the kernels' sigma, px
+};
+
+/// One line alone has too few rows to tell its grain for sure.
+CommonScatter common_scatter(std::span<const RowDifferences> lines);
+
+/// Fits the differences of one line by the common grain. A short line's grained variance leans on the common
+/// one; a line with less than 24 usable rows has nothing else.
+RowScatter fit_scatter(const RowDifferences& line, const CommonScatter& common);
+
+/// Both for a line that is alone.
 template <class T>
 RowScatter measure_row_scatter(ImageView<T> image, const DerivativeKernels& kernels, const LineSet& lines,
                                const LineRange& range, RowScatterWorkspace& workspace);

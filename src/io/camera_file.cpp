@@ -86,17 +86,26 @@ void check_matrix(const std::vector<double>& K, const YamlPlace& place) {
 /// Fisheye models have four terms too, which must not pass for k1 k2 p1 p2.
 void refuse_fisheye(const YamlNode& root, const Camera& camera, const YamlPlace& place) {
   constexpr double kMaxTangential = 0.05;  // a decentred lens has 0.001, a bad one 0.01
+  // What p1, p2 move a point in the picture's corner, over its distance from the middle: 0.003 for a usual
+  // lens, 0.01 for a bad one. In wide pictures small coefficients move far.
+  constexpr double kMaxShift = 0.025;
   const std::string what_to_do = "calibrate with OpenCV's pinhole model (plumb_bob), or leave the camera out";
   const YamlNode* flag = find(root, {"fisheye_model", "fisheye"});
   if (flag && flag->text != "0" && flag->text != "false")
     throw Error(place.file, "holds a camera of the fisheye model", what_to_do);
   const double tangential = std::max(std::abs(camera.distortion[2]), std::abs(camera.distortion[3]));
-  if (tangential > kMaxTangential)
-    throw Error(place.file,
-                fmt::format("has tangential terms p1, p2 of {:.3g}, as no lens has: they look like a fisheye "
-                            "(equidistant) model's",
-                            tangential),
-                what_to_do);
+  const double corner = std::hypot(std::max(camera.cx, camera.width - camera.cx) / camera.fx,
+                                   std::max(camera.cy, camera.height - camera.cy) / camera.fy);
+  if (tangential > kMaxTangential || 3 * tangential * corner > kMaxShift)
+    throw Error(
+        place.file,
+        fmt::format("has tangential terms p1, p2 of {:.3g}, as no lens has{}: they look like a fisheye "
+                    "(equidistant) model's",
+                    tangential,
+                    camera.width > 0 ? fmt::format(" (they move the picture's corner by {:.0f} px)",
+                                                   3 * tangential * corner * corner * camera.fx)
+                                     : ""),
+        what_to_do);
 }
 
 /// OpenCV's FileStorage and ROS' camera_info differ in what stands beside these keys.

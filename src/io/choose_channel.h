@@ -17,7 +17,8 @@ namespace lightstripe {
 Channel decide_channel(std::int64_t count, const std::function<void(std::int64_t, Channel*)>& look);
 
 /// The votes of several pictures counted: the commonest of those that are not gray, the first one among
-/// equals; of one colour the "-clipped" form if a third of its votes are for it.
+/// equals; of one colour the "-clipped" form if a third of its votes are for it, else the "-textured" one if
+/// more than half are.
 Channel count_votes(std::span<const Channel> votes);
 
 }  // namespace lightstripe

@@ -67,6 +67,7 @@ class ImageFolder : public FrameSource {
   GreyImage read(std::int64_t index) const override {
     return read_grey_image(folder_ / names_[checked(index)], channel_);
   }
+  Channel channel() const override { return channel_; }
   Picture look(std::int64_t index) const override {
     auto picture = map_picture(file(index), channel_);
     if (!picture) return read(index);
@@ -116,15 +117,18 @@ Channel decide_channel(std::int64_t count, const std::function<void(std::int64_t
 Channel count_votes(std::span<const Channel> votes) {
   constexpr std::array<Channel, 3> kPlain = {Channel::kRedLaser, Channel::kGreenLaser, Channel::kBlueLaser},
                                    kClipped = {Channel::kRedClipped, Channel::kGreenClipped,
-                                               Channel::kBlueClipped};
+                                               Channel::kBlueClipped},
+                                   kTextured = {Channel::kRedTextured, Channel::kGreenTextured,
+                                                Channel::kBlueTextured};
   Channel best = Channel::kGray;
   std::ptrdiff_t most = 0;
   for (std::size_t k = 0; k < kPlain.size(); ++k) {
     const auto plain = std::count(votes.begin(), votes.end(), kPlain.at(k)),
-               clipped = std::count(votes.begin(), votes.end(), kClipped.at(k));
-    if (plain + clipped <= most) continue;
-    most = plain + clipped;
-    best = 3 * clipped >= most ? kClipped.at(k) : kPlain.at(k);
+               clipped = std::count(votes.begin(), votes.end(), kClipped.at(k)),
+               textured = std::count(votes.begin(), votes.end(), kTextured.at(k));
+    if (plain + clipped + textured <= most) continue;
+    most = plain + clipped + textured;
+    best = 3 * clipped >= most ? kClipped.at(k) : 2 * textured > most ? kTextured.at(k) : kPlain.at(k);
   }
   return best;
 }

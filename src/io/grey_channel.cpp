@@ -39,11 +39,16 @@ bool is_excess(Channel channel) {
          channel == Channel::kBlueExcess;
 }
 
-bool is_laser(Channel channel) { return channel >= Channel::kRedLaser && channel <= Channel::kBlueClipped; }
+bool is_laser(Channel channel) { return channel >= Channel::kRedLaser && channel <= Channel::kBlueTextured; }
 
 bool is_clipped(Channel channel) {
   return channel == Channel::kRedClipped || channel == Channel::kGreenClipped ||
          channel == Channel::kBlueClipped;
+}
+
+bool is_textured(Channel channel) {
+  return channel == Channel::kRedTextured || channel == Channel::kGreenTextured ||
+         channel == Channel::kBlueTextured;
 }
 
 /// Half of the laser's own plane and a quarter of both others: where the one is clipped, the others still
@@ -80,10 +85,13 @@ ChannelChoice strongest_channel(const cv::Mat& picture) {
   if (picture.channels() == 1) return {};
   constexpr std::array<Channel, 3> kPlain = {Channel::kBlueLaser, Channel::kGreenLaser, Channel::kRedLaser},
                                    kClipped = {Channel::kBlueClipped, Channel::kGreenClipped,
-                                               Channel::kRedClipped};
+                                               Channel::kRedClipped},
+                                   kTextured = {Channel::kBlueTextured, Channel::kGreenTextured,
+                                                Channel::kRedTextured};
   const LaserVote vote = vote_for_laser(planes(picture));
   if (vote.plane < 0) return {};
-  return {(vote.clipped ? kClipped : kPlain).at(static_cast<std::size_t>(vote.plane)), vote.score};
+  const auto& form = vote.clipped ? kClipped : vote.textured ? kTextured : kPlain;
+  return {form.at(static_cast<std::size_t>(vote.plane)), vote.score};
 }
 
 Image8 grey_values(const cv::Mat& picture, Channel channel, const std::string& file) {
@@ -95,7 +103,9 @@ Image8 grey_values(const cv::Mat& picture, Channel channel, const std::string& f
   if (is_laser(channel)) {
     const auto bgr = planes(picture);
     const std::size_t plane = plane_of(channel);
-    Image8 image = image8_of(is_clipped(channel) ? clipped_light(bgr, plane) : bgr.at(plane));
+    Image8 image = image8_of(is_clipped(channel)    ? clipped_light(bgr, plane)
+                             : is_textured(channel) ? excess(bgr, plane)
+                                                    : bgr.at(plane));
     LaserColour colour = where_laser_colour(bgr, plane);
     image.where = std::move(colour.where);
     image.rise = std::move(colour.rise);

@@ -16,7 +16,8 @@ struct ChannelChoice {
 };
 
 /// What Channel::kAuto means for this picture (8-bit grey or BGR): the colour in which most of it is like a
-/// line of light; gray where none is. Where the line's own plane is clipped, the "-clipped" channel.
+/// line of light; gray where none is. Where the line's own plane is clipped, the "-clipped" channel; where it
+/// shows the pattern of what the line falls on more than the line, the "-textured" one.
 ChannelChoice strongest_channel(const cv::Mat& picture);
 
 /// The channel (not kAuto) of an 8-bit grey or BGR picture. An excess of a picture without colour is an Error

@@ -22,8 +22,10 @@ namespace lightstripe {
 /// Which grey value a colour pixel gives. Excess = channel minus the larger of the other two, 0 if negative.
 /// "-laser": the channel itself, and the image's `where` says where its excess is: the excess tells where the
 /// laser is, the raw channel how exactly. "-clipped": the same with half of the channel and a quarter of both
-/// others, for lines so bright that the channel is clipped. Auto: grey images as they are; colour images by
-/// the colour of what is most like a line (-laser or -clipped), gray where nothing is.
+/// others, for lines so bright that the channel is clipped. "-textured": the same with the excess, for a line
+/// over prints, wood or stones in room light, whose pattern the channel shows as well. Auto: grey images as
+/// they are; colour images by the colour of what is most like a line (-laser, -clipped or -textured), gray
+/// where nothing is.
 enum class Channel {
   kAuto,
   kGray,
@@ -38,10 +40,13 @@ enum class Channel {
   kBlueLaser,
   kRedClipped,
   kGreenClipped,
-  kBlueClipped
+  kBlueClipped,
+  kRedTextured,
+  kGreenTextured,
+  kBlueTextured
 };
 
-constexpr std::array<EnumName<Channel>, 14> enum_names(Channel) {
+constexpr std::array<EnumName<Channel>, 17> enum_names(Channel) {
   return {{{Channel::kAuto, "auto"},
            {Channel::kGray, "gray"},
            {Channel::kRed, "red"},
@@ -55,7 +60,10 @@ constexpr std::array<EnumName<Channel>, 14> enum_names(Channel) {
            {Channel::kBlueLaser, "blue-laser"},
            {Channel::kRedClipped, "red-clipped"},
            {Channel::kGreenClipped, "green-clipped"},
-           {Channel::kBlueClipped, "blue-clipped"}}};
+           {Channel::kBlueClipped, "blue-clipped"},
+           {Channel::kRedTextured, "red-textured"},
+           {Channel::kGreenTextured, "green-textured"},
+           {Channel::kBlueTextured, "blue-textured"}}};
 }
 
 /// Decodes a picture. An Error for a file that is missing, empty, truncated, no image, or larger than 2^28
@@ -121,6 +129,8 @@ class FrameSource {
   virtual std::filesystem::path file(std::int64_t) const { return {}; }
   /// An Error where this one picture cannot be read; the others are not touched by that.
   virtual GreyImage read(std::int64_t index) const = 0;
+  /// The channel that all of it is read in; never kAuto.
+  virtual Channel channel() const { return Channel::kGray; }
   /// The same where its pixels lie in the file as they are needed, without a copy; else what read() gives.
   virtual Picture look(std::int64_t index) const { return read(index); }
   /// Why the recording may not be whole ("its header says 240 frames"); empty where nothing speaks for that.

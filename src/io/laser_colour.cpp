@@ -58,6 +58,19 @@ double top_level(const cv::Mat& level) {
   return 0;
 }
 
+/// Lenses and demosaicing give the edges of grey things coloured fringes, faint against the edge itself.
+cv::Mat is_fringe(const ColourPlanes& bgr, std::size_t plane, const cv::Mat& level) {
+  constexpr int kReach = 3;          // px
+  constexpr double kFaintest = 0.1;  // of the edge
+  cv::Mat others, brightest, darkest, edge, colour;
+  cv::max(bgr.at((plane + 1) % 3), bgr.at((plane + 2) % 3), others);
+  cv::dilate(others, brightest, square(kReach));
+  cv::erode(others, darkest, square(kReach));
+  cv::subtract(brightest, darkest, edge, cv::noArray(), CV_32F);
+  level.convertTo(colour, CV_32F);
+  return colour < kFaintest * edge;
+}
+
 struct LaserMasks {
   cv::Mat sure, faint, core;  ///< CV_8U, 0 or 255; not widened
 };
@@ -127,6 +140,27 @@ double track_score(const cv::Mat& filled, const cv::Mat& plane, double least, in
   return score;
 }
 
+/// How much the other two planes vary where the laser is, other than with its light, over the laser's top:
+/// what is printed or grows there in room light, which the laser's own plane shows as well.
+double texture_under_laser(const ColourPlanes& bgr, std::size_t plane, const ColourRise& rise,
+                           const cv::Mat& sure) {
+  cv::Mat others, where;
+  cv::max(bgr.at((plane + 1) % 3), bgr.at((plane + 2) % 3), others);
+  cv::blur(others, others, {3, 3});
+  cv::dilate(sure, where, square(kMargin));
+  double n = 0, e = 0, o = 0, ee = 0, eo = 0, oo = 0;
+  for (int y = 0; y < where.rows; ++y)
+    for (int x = 0; x < where.cols; ++x) {
+      if (where.at<std::uint8_t>(y, x) == 0) continue;
+      const double light = rise.level.at<std::int16_t>(y, x), other = others.at<std::uint8_t>(y, x);
+      n += 1, e += light, o += other, ee += light * light, eo += light * other, oo += other * other;
+    }
+  const double var_light = n * ee - e * e, cov = n * eo - e * o;
+  if (var_light <= 0) return 0;
+  const double rest = (n * oo - o * o - cov * cov / var_light) / (n * n);
+  return std::sqrt(std::max(0.0, rest)) / std::max(rise.top, 1.0);
+}
+
 /// White light has no colour to tell: there it takes that of the rims on both sides.
 void fill_white(const cv::Mat& white, cv::Mat& level) {
   if (cv::countNonZero(white) == 0) return;
@@ -158,7 +192,10 @@ ColourRise colour_rise(const ColourPlanes& bgr, std::size_t plane) {
 
 LaserColour where_laser_colour(const ColourPlanes& bgr, std::size_t plane) {
   const ColourRise rise = colour_rise(bgr, plane);
-  const LaserMasks m = masks_of(rise, bgr.at(plane));
+  LaserMasks m = masks_of(rise, bgr.at(plane));
+  const cv::Mat fringe = is_fringe(bgr, plane, rise.level);
+  m.sure.setTo(0, fringe);
+  m.faint.setTo(0, fringe);
   cv::Mat sure, faint;
   cv::dilate(m.sure | m.core, sure, square(kMargin));
   cv::dilate(m.faint | m.core, faint, square(kMargin));
@@ -185,7 +222,9 @@ LaserVote vote_for_laser(const ColourPlanes& bgr) {
   constexpr double kLeastBump = 10;        // grey levels
   constexpr double kLeastShare = 0.3;      // of the brightest colour; less is the core's own tint
   constexpr double kLeastScore = 12 * 12;  // a dozen rows of a faint line
-  constexpr double kClippedShare = 0.05;   // of the line's pixels
+  constexpr double kClippedShare = 0.05, kUnclipped = 0.01;  // of the line's pixels
+  // A texture is told along a line, not by a dozen rows.
+  constexpr double kTextured = 0.5, kTexturedScore = 10 * kLeastScore;  // of the laser's top
   ColourPlanes small = bgr;
   const int halves = std::max(bgr[0].cols, bgr[0].rows) > kLargest ? 2 : 1;
   if (halves == 2)
@@ -199,14 +238,17 @@ LaserVote vote_for_laser(const ColourPlanes& bgr) {
     if (rise.top < kLeastBump) continue;
     const LaserMasks masks = masks_of(rise, small.at(plane));
     const double least = std::max({kLeastBump, 6.0 * rise.noise, kLeastShare * largest});
-    const cv::Mat filled = filled_rise(rise, masks.core);
+    cv::Mat filled = filled_rise(rise, masks.core);
+    filled.setTo(0, is_fringe(small, plane, filled));
     double score = 0;
     for (const int reach : {6, 16})
       score = std::max({score, track_score(filled, small.at(plane), least, reach),
                         track_score(filled.t(), small.at(plane).t(), least, reach)});
     if (score < kLeastScore || score <= best.score) continue;
     const int clipped = cv::countNonZero(masks.core), lit = cv::countNonZero(masks.sure | masks.core);
-    best = {static_cast<int>(plane), score, clipped > kClippedShare * lit};
+    best = {static_cast<int>(plane), score, clipped > kClippedShare * lit, false};
+    best.textured = score > kTexturedScore && clipped <= kUnclipped * lit &&
+                    texture_under_laser(small, plane, rise, masks.sure) > kTextured;
   }
   return best;
 }

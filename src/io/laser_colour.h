@@ -33,9 +33,10 @@ LaserColour where_laser_colour(const ColourPlanes& bgr, std::size_t plane);
 
 /// What speaks for a laser of one colour in a picture.
 struct LaserVote {
-  int plane = -1;        ///< 0, 1, 2 for B, G, R; -1: the picture shows no line of light that has a colour
-  double score = 0;      ///< length times contrast of what is line-like in this colour
-  bool clipped = false;  ///< the plane is clipped along a good part of the line
+  int plane = -1;         ///< 0, 1, 2 for B, G, R; -1: the picture shows no line of light that has a colour
+  double score = 0;       ///< length times contrast of what is line-like in this colour
+  bool clipped = false;   ///< the plane is clipped along a good part of the line
+  bool textured = false;  ///< unclipped, and what it falls on varies by more than half of its own light
 };
 /// Votes for what is line-like, not for what is colourful.
 LaserVote vote_for_laser(const ColourPlanes& bgr);

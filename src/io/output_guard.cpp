@@ -72,6 +72,7 @@ std::vector<fs::path> files_of(const Session& session) {
     add_pattern(session.folder, sensor.board, files);
     add_pattern(session.folder, sensor.laser.value_or(""), files);
     add_pattern(session.folder, sensor.board_only.value_or(""), files);
+    add_pattern(session.folder, sensor.background.value_or(""), files);
     for (const auto& file : {sensor.bed, sensor.heights})
       if (file) files.push_back(session.folder / *file);
     if (sensor.camera) files.push_back(session.folder / sensor.camera->substr(0, sensor.camera->rfind('#')));
@@ -88,6 +89,7 @@ std::vector<fs::path> files_of(const Session& session) {
 std::vector<fs::path> files_of(const Scan& scan) {
   std::vector<fs::path> files{scan.folder / scan.rig};
   for (const auto& [sensor, pattern] : scan.frames) add_pattern(scan.folder, pattern, files);
+  for (const auto& [sensor, pattern] : scan.background.of_sensor) add_pattern(scan.folder, pattern, files);
   if (!scan.travel_file.empty()) files.push_back(scan.folder / scan.travel_file);
   if (!scan.poses_file.empty()) files.push_back(scan.folder / scan.poses_file);
   return files;

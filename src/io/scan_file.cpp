@@ -3,9 +3,11 @@
 // The scan half of session_file.h.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <set>
 
 #include "core/error.h"
+#include "io/backgrounds_field.h"
 #include "io/session_file.h"
 
 namespace lightstripe {
@@ -32,6 +34,7 @@ struct ScanFields {
   std::vector<std::pair<std::string, std::string>> frames;
   std::optional<TravelFields> travel;
   std::optional<Channel> channel;
+  std::optional<Backgrounds> background;
   std::optional<std::string> polarity;  ///< as extraction: {polarity: ...}
   YamlSubtree extraction;
 };
@@ -41,6 +44,7 @@ void visit_fields(V&& v, ScanFields& o) {
   v("frames", o.frames);
   v("travel", o.travel);
   v("channel", o.channel);
+  v("background", o.background);
   v("polarity", o.polarity);
   v("extraction", o.extraction);
 }
@@ -67,6 +71,23 @@ void set_travel(Scan& scan, const TravelFields& travel) {
   scan.poses_of = travel.of.value_or("");
 }
 
+Backgrounds checked_backgrounds(const Backgrounds& backgrounds, const Scan& scan, const std::string& file) {
+  for (const auto& [sensor, pattern] : backgrounds.of_sensor) {
+    const bool known = std::any_of(scan.frames.begin(), scan.frames.end(),
+                                   [&](const auto& frames) { return frames.first == sensor; });
+    if (!sensor.empty() && !known)
+      throw Error(fmt::format("{}: background.{}", file, sensor), "names no sensor of frames",
+                  "use a name from frames");
+    if (sensor.empty() && scan.frames.size() > 1)
+      throw Error(file + ": background", "is one for several sensors",
+                  "give each its own, e.g. background: {gauge: off/gauge/*.png, field: off/field/*.png}");
+    if (pattern.empty())
+      throw Error(file + ": background", "is empty",
+                  "give a file or a pattern of pictures with the laser off");
+  }
+  return backgrounds;
+}
+
 }  // namespace
 
 Scan read_scan(const std::filesystem::path& path) {
@@ -90,6 +111,7 @@ Scan read_scan(const std::filesystem::path& path) {
     set_travel(scan, *fields.travel);
   }
   if (fields.channel) scan.channel = *fields.channel;
+  if (fields.background) scan.background = checked_backgrounds(*fields.background, scan, file);
   scan.extraction = fields.extraction;
   if (scan.extraction.origin.empty()) scan.extraction.origin = path.string() + ": extraction";
   if (fields.polarity) detail::add_entry(scan.extraction, "polarity", *fields.polarity);
@@ -108,6 +130,7 @@ std::string scan_to_yaml(const Scan& scan) {
     fields.travel->of = scan.poses_of;
   }
   if (scan.channel != Channel::kAuto) fields.channel = scan.channel;
+  if (!scan.background.empty()) fields.background = scan.background;
   fields.extraction = scan.extraction;
   return dump_yaml(fields);
 }

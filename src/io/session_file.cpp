@@ -6,6 +6,7 @@
 #include <set>
 
 #include "core/error.h"
+#include "io/backgrounds_field.h"
 #include "io/output_guard.h"
 #include "io/session_target.h"
 
@@ -20,7 +21,7 @@ struct SensorFields {
   std::optional<int> laser_planes;
   std::optional<std::string> camera;
   std::optional<bool> camera_fixed;
-  std::optional<std::string> board_only, bed, heights;
+  std::optional<std::string> board_only, bed, heights, background;
 };
 template <class V>
 void visit_fields(V&& v, SensorFields& o) {
@@ -33,6 +34,7 @@ void visit_fields(V&& v, SensorFields& o) {
   v("board_only", o.board_only);
   v("bed", o.bed);
   v("heights", o.heights);
+  v("background", o.background);
 }
 
 /// How a session says what moves; `poses` become the rig's place on the tool, not a Motion.
@@ -64,6 +66,7 @@ struct SessionFields {
   std::optional<MotionFields> motion;
   std::optional<Eigen::Vector3d> up;
   std::optional<Channel> channel;
+  std::optional<Backgrounds> background;
   std::optional<std::string> polarity;  ///< as extraction: {polarity: ...}
   YamlSubtree extraction, calibration;
 };
@@ -74,6 +77,7 @@ void visit_fields(V&& v, SessionFields& o) {
   v("motion", o.motion);
   v("up", o.up);
   v("channel", o.channel);
+  v("background", o.background);
   v("polarity", o.polarity);
   v("extraction", o.extraction);
   v("calibration", o.calibration);
@@ -114,6 +118,9 @@ SessionSensor checked_sensor(const SensorFields& fields, const std::string& key,
   if (!sensor.no_laser) sensor.laser = fields.laser;
   if (none && !fields.bed) sensor.laser_planes = 0;
   sensor.board_only = fields.board_only;
+  if (fields.background) sensor.background = check.text(fields.background, key + "background");
+  check.require(!sensor.background || !none || fields.bed, key + "background", "says nothing without a laser",
+                "leave it out");
   if (fields.camera) check.text(fields.camera, key + "camera");
   check.require(fields.camera || !fields.camera_fixed, key + "camera_fixed", "says nothing without camera",
                 "give the camera's file, or leave it out");
@@ -134,6 +141,24 @@ std::vector<SessionSensor> checked_sensors(const std::vector<SensorFields>& fiel
                   "give each its own name");
   }
   return sensors;
+}
+
+/// A session's own `background` is that of each sensor which names none itself.
+void give_backgrounds(const Backgrounds& backgrounds, std::vector<SessionSensor>& sensors,
+                      const Checker& check) {
+  for (const auto& [name, pattern] : backgrounds.of_sensor) {
+    check.require(!pattern.empty(), "background", "is empty",
+                  "give a file or a pattern of pictures with the laser off");
+    check.require(!name.empty() || sensors.size() == 1, "background", "is one for several sensors",
+                  "give each its own, as a key of the sensor");
+    bool known = name.empty();
+    for (SessionSensor& sensor : sensors) {
+      if (!name.empty() && sensor.name != name) continue;
+      known = true;
+      if (!sensor.background) sensor.background = pattern;
+    }
+    check.require(known, "background." + name, "names no sensor of this session", "use a name from sensors");
+  }
 }
 
 SessionMotion checked_motion(const MotionFields& fields, const std::vector<SessionSensor>& sensors,
@@ -166,6 +191,7 @@ Session read_session(const std::filesystem::path& path) {
   session.target = checked_target(fields.target, session.folder, check);
   if (session.target.type == TargetType::kAprilgrid) session.aprilgrid_file = *fields.target->file;
   session.sensors = checked_sensors(fields.sensors, check);
+  if (fields.background) give_backgrounds(*fields.background, session.sensors, check);
   if (fields.motion) {
     const bool poses = check.given(fields.motion->type, "motion.type") == SessionMotionType::kPoses;
     if (poses)
@@ -198,6 +224,7 @@ std::string session_to_yaml(const Session& session) {
     entry.board_only = sensor.board_only;
     entry.bed = sensor.bed;
     entry.heights = sensor.heights;
+    entry.background = sensor.background;
     fields.sensors.push_back(std::move(entry));
     if (!sensor.camera_fixed) fields.sensors.back().camera_fixed = false;
     if (sensor.laser_planes > 1) fields.sensors.back().laser_planes = sensor.laser_planes;

@@ -17,6 +17,16 @@
 
 namespace lightstripe {
 
+/// Pictures with the laser off, one for all or one each: sensor name and file pattern; no name: of every
+/// sensor. Written as a text or as a map.
+struct Backgrounds {
+  std::vector<std::pair<std::string, std::string>> of_sensor;
+
+  bool empty() const { return of_sensor.empty(); }
+  /// Empty where the sensor has none.
+  std::string pattern(const std::string& sensor) const;
+};
+
 struct SessionSensor {
   std::string name;
   std::string board;                 ///< file pattern, laser off (or on, if `laser` is left out)
@@ -28,6 +38,7 @@ struct SessionSensor {
   std::optional<std::string> board_only{};  ///< file pattern of further boards, without laser
   std::optional<std::string> bed{};         ///< picture of one board lying flat on the bed
   std::optional<std::string> heights{};     ///< table image,height_mm: the laser on blocks over the bed
+  std::optional<std::string> background{};  ///< file pattern, laser off; else the board pictures of pairs
 };
 
 struct SessionMotion {
@@ -73,6 +84,7 @@ struct Scan {
   std::string poses_file;   ///< kPoses: frame,qw,qx,qy,qz,x,y,z
   std::string poses_of;     ///< kPoses: sensor name, or "rig"
   Channel channel = Channel::kAuto;
+  Backgrounds background{};
   YamlSubtree extraction;
 };
 

@@ -60,6 +60,7 @@ class TiffPages : public FrameSource {
     return fmt::format("{}#{}", path_.filename().string(), index);
   }
   std::filesystem::path file(std::int64_t) const override { return path_; }
+  Channel channel() const override { return channel_; }
   GreyImage read(std::int64_t index) const override { return read_as(index, channel_, nullptr); }
   Picture look(std::int64_t index) const override {
     LIGHTSTRIPE_CHECK(index >= 0 && index < size(), "a frame of the sequence");

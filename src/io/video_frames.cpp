@@ -34,6 +34,7 @@ class VideoFrames : public FrameSource {
   }
 
   std::filesystem::path file(std::int64_t) const override { return path_; }
+  Channel channel() const override { return channel_; }
   /// A container's own count may be an estimate, but a whole file is not short of many frames.
   std::string doubt() const override {
     if (stated_ <= size_ + std::max<std::int64_t>(2, size_ / 50)) return {};

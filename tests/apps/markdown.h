@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdint>
 #include <filesystem>
 #include <regex>
 #include <sstream>
@@ -12,6 +14,7 @@
 #include <vector>
 
 #include "command_line.h"
+#include "io/images.h"
 #include "test_paths.h"
 
 namespace lightstripe {
@@ -63,6 +66,9 @@ inline void prepare_own_rig(const TemporaryFolder& folder) {
   ASSERT_EQ(run_lightstripe("simulate testdata/one_sensor.yaml -o " + quoted(folder.path())).exit_code, 0);
   fs::rename(folder / "calibration.yaml", folder / "session.yaml");
   fs::copy(folder / "scan/solo/0002.png", folder / "frame.png");
+  Image8 off = read_image(folder / "frame.png");
+  std::fill(off.pixels.begin(), off.pixels.end(), std::uint8_t{5});  // a dark room
+  write_image(folder / "off.png", off.view());
   fs::copy(LIGHTSTRIPE_SOURCE_DIR "/testdata/one_sensor.yaml", folder / "scene.yaml");
   fs::create_directory_symlink(LIGHTSTRIPE_SOURCE_DIR "/configs", folder / "configs");
   fs::create_directories(folder / "build/bin");

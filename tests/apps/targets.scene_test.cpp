@@ -8,6 +8,7 @@
 #include <set>
 
 #include "core/random.h"
+#include "io/atomic_file.h"
 #include "io/rig_file.h"
 #include "reconstruct/cloud.h"
 #include "rendered_session.h"
@@ -23,6 +24,7 @@ using testing::BoardLook;
 using testing::calibrate_in;
 using ::testing::HasSubstr;
 using testing::kDegree;
+using testing::render_board;
 using testing::RenderedSession;
 
 double angle_deg(const Plane& a, const Plane& b) {
@@ -213,6 +215,83 @@ TEST_F(FiveLines, OneLineThatMayBeSeveralPlanesIsDroppedAndCounted) {
   const auto result = reconstruct();
   EXPECT_EQ(result.exit_code, 3) << result.out;
   EXPECT_THAT(result.err, HasSubstr("stripe points have no certain laser plane"));
+}
+
+/// Of each pixel the brighter one.
+Image8 brighter(const Image8& a, const Image8& b) {
+  Image8 out = a;
+  for (std::size_t i = 0; i < out.pixels.size(); ++i) out.pixels[i] = std::max(a.pixels[i], b.pixels[i]);
+  return out;
+}
+
+class ThreeLines : public SeveralLines {
+ protected:
+  /// Sheets 14 mm apart. The head stands where the boards were, the foot at both sides of it behind them.
+  void SetUp() override {
+    session_.calibration += ", range_near_mm: 440, range_far_mm: 560";
+    calibrate({RenderedSession::laser_at(-14), RenderedSession::laser_at(0), RenderedSession::laser_at(14)});
+    ASSERT_EQ(rig_.sensors[0].laser_planes.size(), 3u);
+    ASSERT_LT(rig_.sensors[0].depth_range_mm[1] + 20, kFoot_mm);
+  }
+  static constexpr double kHead_mm = 490, kFoot_mm = 600;
+
+  Image8 plate(double x, double z, double width_mm, double height_mm) const {
+    const Target target{TargetType::kCheckerboard, 3, 3, width_mm / 4, height_mm / 4};
+    const BoardLook white{.dark = 10,
+                          .light = 10,
+                          .background = 10,
+                          .margin_mm = 0,
+                          .laser_peak = 180,
+                          .laser_sigma_mm = 0.5,
+                          .laser_dark_albedo = 1};
+    return render_board(session_.camera, target,
+                        {Eigen::Quaterniond::Identity(), {x - width_mm / 4, -height_mm / 4, z}}, white, 5,
+                        session_.lasers);
+  }
+  void write_scan(const Image8& picture) {
+    write_image(folder_ / "scan/0.png", picture);
+    write_text(folder_ / "scan.yaml", "rig: rig.yaml\nframes: {solo: scan/*.png}\ntravel: {step: 1}\n");
+  }
+  /// Points of the cloud within 3 mm of a wall at that depth.
+  std::ptrdiff_t points_at(double z) const {
+    const auto cloud = read_cloud(folder_ / "cloud.ply");
+    const Rigid3 camera_from_rig = rig_.sensors[0].rig_from_camera.inverse();
+    return std::count_if(cloud.begin(), cloud.end(), [&](const CloudPoint& p) {
+      return std::abs((camera_from_rig * Vector3d(p.x, p.y, p.z)).z() - z) < 3;
+    });
+  }
+};
+
+TEST_F(ThreeLines, TheHeadIsKeptWhereTheFootLiesBeyondTheBoards) {
+  write_scan(brighter(plate(0, kHead_mm, 50, 160),
+                      brighter(plate(-70, kFoot_mm, 50, 260), plate(70, kFoot_mm, 50, 260))));
+  const auto result = reconstruct();
+  ASSERT_EQ(result.exit_code, 0) << result.out << result.err;
+  const auto cloud = read_cloud(folder_ / "cloud.ply");
+  EXPECT_GT(cloud.size(), 150u);  // three lines of 84 px
+  EXPECT_EQ(points_at(kHead_mm), static_cast<std::ptrdiff_t>(cloud.size()));
+  EXPECT_THAT(result.err, HasSubstr("may lie outside its depth_range"));
+  // The range that the message names keeps the foot as well.
+  const auto range = result.err.find("depth_range: [");
+  ASSERT_NE(range, std::string::npos) << result.err;
+  double near = 0, far = 0;
+  ASSERT_EQ(std::sscanf(result.err.c_str() + range, "depth_range: [%lf, %lf]", &near, &far), 2);
+  Rig wider = rig_;
+  wider.sensors[0].depth_range_mm = {near, far};
+  write_file(folder_ / "rig.yaml", rig_to_yaml(wider));
+  const auto again = reconstruct();
+  ASSERT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_GT(points_at(kFoot_mm), 250);
+  EXPECT_EQ(points_at(kFoot_mm) + points_at(kHead_mm),
+            static_cast<std::ptrdiff_t>(read_cloud(folder_ / "cloud.ply").size()));
+}
+
+TEST_F(ThreeLines, AloneTheFootIsNotCalledNoStripe) {
+  write_scan(plate(0, kFoot_mm, 60, 260));
+  const auto result = reconstruct();
+  EXPECT_EQ(result.exit_code, 3) << result.out;
+  EXPECT_THAT(result.err, HasSubstr("lines were seen in 1 frames"));
+  EXPECT_THAT(result.err, HasSubstr("may lie outside its depth_range"));
 }
 
 TEST_F(SeveralLines, CrossedOnesAreToldApart) {

@@ -196,5 +196,18 @@ TEST(GivenCamera, AsAStartMovesToTheTruth) {
   EXPECT_NEAR(result.rig.sensors[0].camera.fx, truth.sensors[0].camera.fx, 1e-4);
 }
 
+TEST(GivenCamera, OfAnotherLensOrModelIsRefused) {
+  const auto truth = rail_rig(1, 3);
+  auto observations = observe(truth, {.poses = 8});
+  // Four coefficients of a fisheye model, as small as a poor lens has them, under the name of k1 k2 p1 p2.
+  Camera fisheye = truth.sensors[0].camera;
+  fisheye.distortion = {-0.04, 0.06, -0.02, 0.012};
+  observations.sensors[0].given_camera = GivenCamera{fisheye, true};
+  const auto refused = calibrate_rig(observations, with_lens(LensModel::kAuto));
+  EXPECT_FALSE(refused.summary.usable) << refused.rig.quality.sensors[0].board_rms_px;
+  EXPECT_THAT(refused.summary.message, ::testing::HasSubstr("the given camera did not take these pictures"));
+  EXPECT_THAT(refused.summary.message, ::testing::HasSubstr("no fisheye"));
+}
+
 }  // namespace
 }  // namespace lightstripe

@@ -151,6 +151,12 @@ TEST_F(CameraFile, WhatIsNoPinholeCameraIsRefusedByName) {
   EXPECT_THAT(
       camera(good, "distortion_coefficients: {rows: 4, cols: 1, data: [0.241, 0.159, 0.137, 0.083]}\n"),
       HasSubstr("look like a fisheye"));
+  // A wide lens: the same p1 that is harmless in a narrow picture moves the corner by 19 px.
+  const std::string wide = "285, 0, 320, 0, 285, 240, 0, 0, 1";
+  const std::string small =
+      "distortion_coefficients: {rows: 4, cols: 1, data: [-0.01, 0.02, -0.011, 0.003]}\n";
+  EXPECT_THAT(camera(wide, small), HasSubstr("they move the picture's corner by 19 px"));
+  EXPECT_EQ(camera(good, small), "no error");
 }
 
 }  // namespace

@@ -62,6 +62,49 @@ TEST(WhereLaserColour, IsSureOnTheLineWithItsClippedCoreAndNowhereElse) {
   }
 }
 
+/// 320 x 240, a checkerboard of white and black in room light, with a red stripe of 50 grey levels.
+ColourPlanes board_with_red_line() {
+  ColourPlanes planes;
+  for (std::size_t k = 0; k < 3; ++k) {
+    planes.at(k) = cv::Mat(240, 320, CV_8UC1);
+    for (int y = 0; y < 240; ++y)
+      for (int x = 0; x < 320; ++x) {
+        const double ambient = (x / 25 + y / 25) % 2 == 0 ? 15 : 160;
+        const double line =
+            k == 2 ? 50 * std::exp(-0.5 * (x - 160 - 0.3 * y) * (x - 160 - 0.3 * y) / 9.0) : 0;
+        planes.at(k).at<std::uint8_t>(y, x) = static_cast<std::uint8_t>(ambient + line);
+      }
+  }
+  return planes;
+}
+
+TEST(LaserVote, TellsALineOverAPrintThatOutshinesIt) {
+  const LaserVote on_print = vote_for_laser(board_with_red_line());
+  EXPECT_EQ(on_print.plane, 2);
+  EXPECT_TRUE(on_print.textured);
+  EXPECT_FALSE(on_print.clipped);
+  EXPECT_FALSE(vote_for_laser(room_with_line({0, 0, 50})).textured);        // on plain grey
+  EXPECT_FALSE(vote_for_laser(room_with_line({300, 300, 1500})).textured);  // clipped: the excess is hollow
+}
+
+TEST(WhereLaserColour, ColouredFringesOfAnEdgeAreNoLaser) {
+  // A white sheet on black, whose lower edge has a fringe of 12 grey levels of red: a lens does that.
+  ColourPlanes planes = room_with_line({0, 0, 60});
+  for (ColourPlanes::value_type& plane : planes) plane.rowRange(120, 240).setTo(220);
+  planes[2].rowRange(120, 123).setTo(232);
+  const auto where = where_laser_colour(planes, 2).where;
+  for (const int x : {20, 100, 240, 300})
+    EXPECT_EQ(where[static_cast<std::size_t>(121 * 320 + x)], LaserPlace::kNone) << x;
+  EXPECT_EQ(where[static_cast<std::size_t>(60 * 320 + 160)], LaserPlace::kSure);
+}
+
+TEST(CountVotes, TexturedNeedsMoreThanHalf) {
+  using C = Channel;
+  EXPECT_EQ(count_votes(std::vector<C>{C::kRedTextured, C::kRedTextured, C::kRedLaser}), C::kRedTextured);
+  EXPECT_EQ(count_votes(std::vector<C>{C::kRedTextured, C::kRedLaser}), C::kRedLaser);
+  EXPECT_EQ(count_votes(std::vector<C>{C::kRedTextured, C::kRedClipped}), C::kRedClipped);
+}
+
 TEST(CountVotes, GreyAbstainsAndClippingIsSeenInAThird) {
   using C = Channel;
   EXPECT_EQ(count_votes(std::vector<C>{C::kGray, C::kGray, C::kRedLaser}), C::kRedLaser);

@@ -196,6 +196,36 @@ TEST(Scan, TakesEveryFormOfTravelAndWritesItBack) {
   EXPECT_EQ(none.frames.size(), 2U);
 }
 
+TEST(Scan, BackgroundIsOneTextOrAMapOfSensors) {
+  const TempFolder folder;
+  const std::string one = "rig: rig.yaml\nframes: {gauge: a/*.png}\nbackground: off/*.png\n";
+  const Scan scan = read_scan(folder.write("s.yaml", one));
+  EXPECT_EQ(scan.background.pattern("gauge"), "off/*.png");
+  EXPECT_EQ(read_scan(folder.write("t.yaml", scan_to_yaml(scan))).background.pattern("gauge"), "off/*.png");
+  const Scan two = read_scan(folder.write("s.yaml", std::string(kScan) + "background: {field: off.png}\n"));
+  EXPECT_EQ(two.background.pattern("gauge"), "");
+  EXPECT_EQ(two.background.pattern("field"), "off.png");
+  EXPECT_EQ(read_scan(folder.write("t.yaml", scan_to_yaml(two))).background.pattern("field"), "off.png");
+  EXPECT_THAT(scan_complaint(std::string(kScan) + "background: off.png\n"),
+              HasSubstr("background: is one for several sensors; give each its own"));
+  EXPECT_THAT(scan_complaint(std::string(kScan) + "background: {other: off.png}\n"),
+              HasSubstr("background.other: names no sensor of frames"));
+}
+
+TEST(Session, BackgroundBelongsToASensorOrToTheOnlyOne) {
+  const TempFolder folder;
+  const std::string one =
+      "target: {inner_corners: [11, 7], square: 10}\nsensors: [{name: a, board: '*.png'}]\nbackground: "
+      "off.png\n";
+  const Session session = read_session(folder.write("s.yaml", one));
+  EXPECT_EQ(session.sensors[0].background, "off.png");
+  EXPECT_EQ(read_session(folder.write("t.yaml", session_to_yaml(session))).sensors[0].background, "off.png");
+  EXPECT_THAT(session_complaint(std::string(kSession) + "background: off.png\n"),
+              HasSubstr("background: is one for several sensors"));
+  EXPECT_THAT(session_complaint(std::string(kSession) + "background: {other: off.png}\n"),
+              HasSubstr("background.other: names no sensor"));
+}
+
 TEST(Scan, NamesTheKeyThatIsWrong) {
   const std::string good = kScan;
   const auto bad_travel = [&good](const std::string& travel) {

@@ -163,6 +163,59 @@ TEST(AssignLaserPlanesByReach, OneLineTooManyLeavesThoseItTouchesOpen) {
   EXPECT_THAT(planes, kNone);
 }
 
+// ---- beyond the measuring range ----
+
+TEST(AssignLaserPlanesByReach, ALineThatMayLieNearTheRangeIsDroppedUnderThatName) {
+  // Sheet 1 at 470 is where sheet 2 would be at 525, a quarter of the range beyond it.
+  auto sensor = ranged_sensor();
+  sensor.laser_planes.erase(sensor.laser_planes.begin());  // sheets 1 and 2
+  const auto decisions = decide_laser_planes({upright(column(1, 470))}, sensor);
+  EXPECT_EQ(decisions[0].plane, std::nullopt);
+  EXPECT_TRUE(decisions[0].may_lie_outside);
+  EXPECT_EQ(decisions[0].outside_mm, std::nullopt);
+}
+
+TEST(AssignLaserPlanesByReach, TheHeadIsKeptWhereTheFootLiesOutside) {
+  // The foot, 60 mm behind the range, on both sides of the head: its lines look like those of the next sheets
+  // within it. On the right the first is hidden.
+  const auto sensor = ranged_sensor();
+  std::vector<Stripe> stripes;
+  for (int k = 0; k < 3; ++k) stripes.push_back(piece(column(k, 440), 150, 250));
+  for (int k = 0; k < 3; ++k) stripes.push_back(piece(column(k, 560), 40, 152));
+  for (int k = 1; k < 3; ++k) stripes.push_back(piece(column(k, 560), 248, 360));
+  const auto decisions = decide_laser_planes(stripes, sensor);
+  for (int k = 0; k < 3; ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    EXPECT_EQ(decisions[i].plane, k);
+    EXPECT_EQ(decisions[3 + i].plane, std::nullopt);
+    EXPECT_TRUE(decisions[3 + i].may_lie_outside);
+    ASSERT_TRUE(decisions[3 + i].outside_mm);
+    EXPECT_NEAR(decisions[3 + i].outside_mm->front(), 560, 0.01);
+    EXPECT_NEAR(decisions[3 + i].outside_mm->back(), 560, 0.01);
+  }
+  for (std::size_t i = 6; i < 8; ++i) {
+    EXPECT_EQ(decisions[i].plane, std::nullopt);
+    EXPECT_TRUE(decisions[i].may_lie_outside);
+  }
+}
+
+TEST(AssignLaserPlanesByReach, AStrayLightAloneProvesNothing) {
+  const auto sensor = ranged_sensor();
+  EXPECT_THAT(assign_laser_planes({piece(column(2, 401), 100, 200), piece(600, 220, 300)}, sensor),
+              ElementsAre(2, std::nullopt));
+}
+
+TEST(AssignLaserPlanesByReach, AGroupThatCannotBeDoesNotTakeTheOthersAlong) {
+  // Seven lines beside each other: more stray light than anybody would sort out.
+  const auto sensor = ranged_sensor();
+  std::vector<Stripe> stripes;
+  for (int k = 0; k < 3; ++k) stripes.push_back(piece(column(k, 450), 100, 200));
+  for (int k = 0; k < 7; ++k) stripes.push_back(piece(300 + 25 * k, 220, 300));
+  const auto planes = assign_laser_planes(stripes, sensor);
+  EXPECT_THAT(std::vector(planes.begin(), planes.begin() + 3), ElementsAre(0, 1, 2));
+  EXPECT_THAT(std::vector(planes.begin() + 3, planes.end()), kNone);
+}
+
 /// Where a sheet n.X = d meets a wall at depth z, from column 200 to 440.
 Stripe line_on_wall(const Plane& sheet, double z) {
   Stripe stripe;

@@ -1,0 +1,118 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/bench_real.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <functional>
+
+#include "apps/bench_references.h"
+#include "extraction/extract_stripes.h"
+#include "extraction/workspace.h"
+#include "io/images.h"
+#include "simulate/speckled_stripe.h"
+
+namespace lightstripe {
+namespace {
+
+double median_ms(int repeat, const std::function<void()>& work) {
+  std::vector<double> times;
+  for (int i = 0; i < repeat; ++i) {
+    const auto start = std::chrono::steady_clock::now();
+    work();
+    times.push_back(
+        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
+  }
+  const auto middle = times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2);
+  std::nth_element(times.begin(), middle, times.end());
+  return *middle;
+}
+
+/// What is added up over the pictures of one kind.
+struct SpeckleSums {
+  double points = 0, squares = 0, predicted = 0, rows = 0;
+  std::int64_t false_points = 0;
+
+  void add(const SpeckledStripe& truth, const std::vector<Stripe>& stripes) {
+    std::vector<char> found(SpeckledStripe::kHeight, 0);
+    const double reach = std::max(4.0, 5.2 * truth.sigma_px);
+    for (const Stripe& stripe : stripes)
+      for (const StripePoint& p : stripe.points) {
+        const double error = (p.x - SpeckledStripe::centre(p.y)) * SpeckledStripe::cosine(p.y);
+        if (std::abs(error) > reach) {
+          ++false_points;
+          continue;
+        }
+        points += 1;
+        squares += error * error;
+        predicted += p.sigma_px * p.sigma_px;
+        found[static_cast<std::size_t>(std::clamp<long>(std::lround(p.y), 0, SpeckledStripe::kHeight - 1))] =
+            1;
+      }
+    rows += static_cast<double>(std::count(found.begin(), found.end(), 1));
+  }
+  double rms() const { return std::sqrt(squares / std::max(points, 1.0)); }
+  double ratio() const { return predicted > 0 ? squares / predicted : 0; }
+};
+
+SpeckleScore speckle_score(const SpeckledStripe& truth, ExtractionOptions options, int pictures) {
+  SpeckleSums plain, smooth;
+  for (int k = 1; k <= pictures; ++k) {
+    const Image8 image = render(truth, static_cast<std::uint64_t>(k));
+    options.smoothing = false;
+    plain.add(truth, extract_stripes(image.view(), options).stripes);
+    options.smoothing = true;
+    smooth.add(truth, extract_stripes(image.view(), options).stripes);
+  }
+  return {truth.speckle.contrast, truth.speckle.grain_px,
+          truth.sigma_px,         plain.rows / (pictures * SpeckledStripe::kHeight),
+          plain.false_points,     plain.rms(),
+          smooth.rms(),           plain.ratio(),
+          smooth.ratio()};
+}
+
+}  // namespace
+
+std::vector<MethodScore> bench_labelled(const std::filesystem::path& folder, const ExtractionOptions& options,
+                                        int repeat) {
+  const auto pictures = read_labelled_pictures(folder);
+  constexpr auto kMethods = enum_names(ExtractionMethod{});
+  std::vector<std::vector<MethodScore>> by_method(kMethods.size());
+  ExtractionWorkspace workspace;
+  ExtractionResult result;
+  for (const LabelledPicture& picture : pictures) {
+    const Image8 image = read_image(picture.file);
+    double steger_ms = 0;
+    for (std::size_t m = 0; m < kMethods.size(); ++m) {
+      ExtractionOptions of_method = options;
+      of_method.method = kMethods.at(m).value;
+      extract_stripes(image.view(), of_method, workspace, result);
+      MethodScore score{std::string(kMethods.at(m).name), picture.set, picture.file.filename().string(),
+                        score_lines(picture.lines, result.stripes)};
+      if (m == 0) {
+        explain_score(picture.lines, result.stripes, image.view(), result.noise, score.score);
+        const double sigma = result.sigma > 0 ? std::min(result.sigma, 4.0) : 2.0;
+        steger_ms = median_ms(repeat, [&] { steger_by_opencv(image.view(), sigma, 1.0); });
+      }
+      score.median_ms =
+          median_ms(repeat, [&] { extract_stripes(image.view(), of_method, workspace, result); });
+      score.steger_ms = steger_ms;
+      by_method[m].push_back(std::move(score));
+    }
+  }
+  std::vector<MethodScore> all;
+  for (auto& scores : by_method) std::move(scores.begin(), scores.end(), std::back_inserter(all));
+  return all;
+}
+
+std::vector<SpeckleScore> bench_speckle(const ExtractionOptions& options, int pictures) {
+  std::vector<SpeckleScore> scores;
+  for (const double contrast : {0.15, 0.3, 0.5})
+    for (const double grain : {0.8, 1.6})
+      for (const double sigma : {2.0, 4.0})
+        scores.push_back(speckle_score({{contrast, grain}, sigma, 150}, options, pictures));
+  return scores;
+}
+
+}  // namespace lightstripe

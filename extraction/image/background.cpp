@@ -1,0 +1,153 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+#include "extraction/image/background.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "core/error.h"
+#include "extraction/image/noise.h"
+
+namespace lightstripe {
+namespace {
+
+constexpr int kLevels = 256;
+constexpr int kClipped = 250;             // dark pixels from here on say nothing about the light
+constexpr std::uint32_t kMinPixels = 50;  // of a grey level, for its median to count
+
+struct LevelMedian {
+  double dark, lit, weight;
+};
+
+/// Bits to take away so that 256 levels hold both pictures.
+template <class T>
+int level_shift(ImageView<T> lit, ImageView<T> dark) {
+  if constexpr (sizeof(T) == 1) return 0;
+  T largest = 0;
+  for (const ImageView<T>& image : {lit, dark})
+    for (int y = 0; y < image.height; ++y)
+      largest = std::max(largest, *std::max_element(image.row(y), image.row(y) + image.width));
+  int shift = 0;
+  while ((largest >> shift) >= kLevels) ++shift;
+  return shift;
+}
+
+template <class T>
+std::vector<LevelMedian> level_medians(ImageView<T> lit, ImageView<T> dark, int shift) {
+  std::vector<std::uint32_t> joint(static_cast<std::size_t>(kLevels) * kLevels);
+  for (int y = 0; y < dark.height; ++y)
+    for (int x = 0; x < dark.width; ++x)
+      ++joint[static_cast<std::size_t>(dark(x, y) >> shift) * kLevels +
+              static_cast<std::size_t>(lit(x, y) >> shift)];
+  std::vector<LevelMedian> medians;
+  for (int level = 0; level < kClipped; ++level) {
+    const std::uint32_t* row = joint.data() + static_cast<std::ptrdiff_t>(level) * kLevels;
+    std::uint32_t total = 0;
+    for (int i = 0; i < kLevels; ++i) total += row[i];
+    if (total < kMinPixels) continue;
+    int median = 0;
+    for (std::uint32_t below = row[0]; 2 * below < total;) below += row[++median];
+    medians.push_back(
+        {static_cast<double>(level), static_cast<double>(median), std::sqrt(static_cast<double>(total))});
+  }
+  return medians;
+}
+
+/// Weighted least squares; gain 1 where the levels do not spread enough to tell.
+AmbientChange fit_line(const std::vector<LevelMedian>& medians) {
+  constexpr double kMinSpread = 5;  // grey levels
+  double w = 0, mean_dark = 0, mean_lit = 0;
+  for (const auto& m : medians) {
+    w += m.weight;
+    mean_dark += m.weight * m.dark;
+    mean_lit += m.weight * m.lit;
+  }
+  if (!(w > 0)) return {};
+  mean_dark /= w;
+  mean_lit /= w;
+  double variance = 0, covariance = 0;
+  for (const auto& m : medians) {
+    variance += m.weight * (m.dark - mean_dark) * (m.dark - mean_dark) / w;
+    covariance += m.weight * (m.dark - mean_dark) * (m.lit - mean_lit) / w;
+  }
+  const double gain = variance > kMinSpread * kMinSpread ? std::max(0.0, covariance / variance) : 1.0;
+  return {gain, mean_lit - gain * mean_dark};
+}
+
+/// In units of the shifted levels.
+template <class T>
+AmbientChange fit_change(ImageView<T> lit, ImageView<T> dark, int shift) {
+  LIGHTSTRIPE_CHECK(lit.width == dark.width && lit.height == dark.height, "a pair has one size");
+  auto medians = level_medians(lit, dark, shift);
+  AmbientChange change = fit_line(medians);
+  // A level that lies mostly under the stripe or a reflection does not follow the others: once more without
+  // such.
+  constexpr double kOutlier = 15;  // grey levels
+  std::erase_if(medians, [&](const auto& m) {
+    return std::abs(m.lit - change.gain * m.dark - change.offset) > kOutlier;
+  });
+  if (medians.size() >= 2) change = fit_line(medians);
+  return change;
+}
+
+/// What the subtraction is done with.
+template <class T>
+struct Ambient {
+  AmbientChange change;  ///< grey levels of the pictures
+  double dark_level = 0, clearly_darker = 0;
+
+  double of(T dark) const { return change.gain * dark + change.offset; }
+};
+
+template <class T>
+Ambient<T> ambient_of(ImageView<T> lit, ImageView<T> dark) {
+  constexpr double kLeastDarker = 10, kSigmas = 8;  // of 256 levels; of the lit picture's noise
+  const int shift = level_shift(lit, dark);
+  Ambient<T> ambient;
+  ambient.change = fit_change(lit, dark, shift);
+  ambient.change.offset *= 1 << shift;
+  ambient.dark_level = kDarkLevel << shift;
+  ambient.clearly_darker = std::max(kLeastDarker * (1 << shift), kSigmas * estimate_noise(lit, 8).full);
+  return ambient;
+}
+
+template <class T>
+LaserLight<T> subtract(const Image<T>& lit, const Image<T>& dark) {
+  constexpr int kMost = std::numeric_limits<T>::max();
+  const Ambient<T> ambient = ambient_of(lit.view(), dark.view());
+  LaserLight<T> light;
+  light.change = ambient.change;
+  light.image = Image<T>(lit.width, lit.height);
+  light.image.where = lit.where;
+  light.image.rise = lit.rise;
+  if (lit.where.empty()) light.image.where.assign(lit.pixels.size(), LaserPlace::kSure);
+  std::size_t darker = 0;
+  for (std::size_t i = 0; i < lit.pixels.size(); ++i) {
+    const double rest = lit.pixels[i] - ambient.of(dark.pixels[i]);
+    light.image.pixels[i] =
+        static_cast<T>(std::clamp(static_cast<int>(std::lround(rest + ambient.dark_level)), 0, kMost));
+    darker += rest < -ambient.clearly_darker ? 1U : 0U;
+    std::uint8_t& place = light.image.where[i];
+    if (lit.pixels[i] >= kMost - 1 && place == LaserPlace::kSure) place = kClippedPlace;
+  }
+  light.darker_share =
+      static_cast<double>(darker) / static_cast<double>(std::max<std::size_t>(1, lit.pixels.size()));
+  return light;
+}
+
+}  // namespace
+
+AmbientChange fit_ambient_change(ImageView8 lit, ImageView8 dark) { return fit_change(lit, dark, 0); }
+AmbientChange fit_ambient_change(ImageView16 lit, ImageView16 dark) { return ambient_of(lit, dark).change; }
+
+LaserLight<std::uint8_t> subtract_background(const Image8& lit, const Image8& dark) {
+  return subtract(lit, dark);
+}
+LaserLight<std::uint16_t> subtract_background(const Image16& lit, const Image16& dark) {
+  return subtract(lit, dark);
+}
+
+}  // namespace lightstripe

@@ -1,0 +1,85 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+// The rail rig of two sensors under speckle, default options: the points' predicted errors hold.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <map>
+#include <vector>
+
+#include "command_line.h"
+#include "io/tables.h"
+#include "test_paths.h"
+
+namespace lightstripe {
+namespace {
+
+using Section = std::vector<Eigen::Vector2d>;
+
+/// The true sections by frame, 0.1 mm from place to place.
+std::map<std::int64_t, Section> true_sections(const std::filesystem::path& file) {
+  std::map<std::int64_t, Section> sections;
+  std::ifstream in(file);
+  std::string line;
+  std::getline(in, line);
+  while (std::getline(in, line)) {
+    std::int64_t frame = 0;
+    double travel = 0, u = 0, v = 0;
+    if (std::sscanf(line.c_str(), "%ld,%lf,%lf,%lf", &frame, &travel, &u, &v) == 4)
+      sections[frame].emplace_back(u, v);
+  }
+  return sections;
+}
+
+/// Distance of a point to the section's nearest segment, mm.
+double distance(const Section& section, const Eigen::Vector2d& p) {
+  double nearest = 1e9;
+  for (std::size_t i = 0; i + 1 < section.size(); ++i) {
+    const Eigen::Vector2d d = section[i + 1] - section[i];
+    if (d.squaredNorm() > 1) continue;  // from one surface to the next
+    const double t = std::clamp((p - section[i]).dot(d) / std::max(d.squaredNorm(), 1e-12), 0.0, 1.0);
+    nearest = std::min(nearest, (section[i] + t * d - p).squaredNorm());
+  }
+  return std::sqrt(nearest);
+}
+
+struct Errors {
+  double points = 0, squares = 0, predicted = 0, surprise = 0;
+};
+
+TEST(Speckle, TheRailRigsPointsHaveTheErrorsThatTheyPredict) {
+  const TemporaryFolder folder;
+  // The default scene's rig; few boards, because the true rig is taken.
+  write_text(folder / "scene.yaml",
+             "imaging: {speckle: {contrast: 0.3, grain_px: 1.2}}\n"
+             "boards: {count: 1}\nmotion: {positions: 2}\nscan: {frames: 5, step_mm: 9}\n");
+  ASSERT_EQ(
+      run_lightstripe("simulate " + quoted(folder / "scene.yaml") + " -o " + quoted(folder / "s")).exit_code,
+      0);
+  const auto done = run_lightstripe("reconstruct " + quoted(folder / "s/scan.yaml") + " --rig " +
+                                    quoted(folder / "s/truth/rig.yaml") + " -o " + quoted(folder / "c.ply") +
+                                    " --profiles " + quoted(folder / "p.csv"));
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  const auto sections = true_sections(folder / "s/truth/sections.csv");
+  Errors all;
+  for (const Profile& profile : read_profiles(folder / "p.csv"))
+    for (const ProfilePoint& p : profile.points) {
+      const double error = distance(sections.at(profile.frame), {p.u, p.v});
+      if (error > 1.0) continue;
+      all.points += 1;
+      all.squares += error * error;
+      all.predicted += p.sigma_mm * p.sigma_mm;
+      all.surprise += error * error / (p.sigma_mm * p.sigma_mm);
+    }
+  ASSERT_GT(all.points, 4000);
+  EXPECT_GT(all.squares / all.predicted, 0.7);
+  EXPECT_LT(all.squares / all.predicted, 1.4);
+  // Point by point: 5 to 9 where each line's few rows told its grain alone.
+  EXPECT_LT(all.surprise / all.points, 1.6);
+}
+
+}  // namespace
+}  // namespace lightstripe

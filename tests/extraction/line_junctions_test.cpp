@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+// Bridges over crossings lie on the curve through both sides.
+#include "extraction/lines/line_junctions.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/random.h"
+
+namespace lightstripe {
+namespace {
+
+double x_at(double y) { return 100 + 0.002 * (y - 100) * (y - 100); }
+
+/// A bent line, bridged from 96 to 104; its points beside the bridge are drawn aside as a crossing does.
+LineSet crossed_line() {
+  Random random(2, 2);
+  LineSet lines;
+  for (int y = 0; y < 200; ++y) {
+    StripePoint p;
+    p.y = y;
+    p.x = x_at(y) + 0.01 * random.gaussian();
+    p.normal_x = 1;
+    p.sigma_px = 0.01;
+    p.strength = 10;
+    if (std::abs(y - 100) <= 7) p.x += 0.5;
+    if (std::abs(y - 100) <= 4) {
+      p.x += 0.5;
+      p.flags = kStripeBridged;
+    }
+    lines.points.push_back(p);
+  }
+  lines.lines = {{0, lines.points.size()}};
+  return lines;
+}
+
+TEST(LineJunctions, TheBridgeAndWhatWasDrawnAsideGoToTheCurve) {
+  LineSet lines = crossed_line();
+  mend_junctions(make_derivative_kernels(2), lines);
+  for (const StripePoint& p : lines.points) EXPECT_NEAR(p.x, x_at(p.y), 0.06) << p.y;
+  EXPECT_NE(lines.points[94].flags & kStripeBridged, 0);
+  EXPECT_GT(lines.points[100].sigma_px, 0.1);
+  EXPECT_EQ(lines.points[60].flags, 0);
+}
+
+TEST(LineJunctions, NearAnEndThereIsNoCurveThroughBothSides) {
+  LineSet lines = crossed_line();
+  lines.lines = {{90, 200}};
+  const double before = lines.points[100].x;
+  mend_junctions(make_derivative_kernels(2), lines);
+  EXPECT_EQ(lines.points[100].x, before);
+}
+
+}  // namespace
+}  // namespace lightstripe
