@@ -143,11 +143,12 @@ LaserLight<T> subtract(const Image<T>& lit, const Image<T>& dark) {
 AmbientChange fit_ambient_change(ImageView8 lit, ImageView8 dark) { return fit_change(lit, dark, 0); }
 AmbientChange fit_ambient_change(ImageView16 lit, ImageView16 dark) { return ambient_of(lit, dark).change; }
 
-LaserLight<std::uint8_t> subtract_background(const Image8& lit, const Image8& dark) {
+template <class T>
+LaserLight<T> subtract_background(const Image<T>& lit, const Image<T>& dark) {
   return subtract(lit, dark);
 }
-LaserLight<std::uint16_t> subtract_background(const Image16& lit, const Image16& dark) {
-  return subtract(lit, dark);
-}
+
+template LaserLight<std::uint8_t> subtract_background(const Image8&, const Image8&);
+template LaserLight<std::uint16_t> subtract_background(const Image16&, const Image16&);
 
 }  // namespace lightstripe

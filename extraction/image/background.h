@@ -37,7 +37,7 @@ struct LaserLight {
 
 /// Both pictures of one size. `where` of the lit picture stays; a grey picture gets one that is sure
 /// everywhere, since what is not laser is gone.
-LaserLight<std::uint8_t> subtract_background(const Image8& lit, const Image8& dark);
-LaserLight<std::uint16_t> subtract_background(const Image16& lit, const Image16& dark);
+template <class T>
+LaserLight<T> subtract_background(const Image<T>& lit, const Image<T>& dark);
 
 }  // namespace lightstripe

@@ -92,8 +92,11 @@ TEST(ScanJournal, ALastLineThatWasCutOffDoesNotCount) {
   ScanTally tally;
   tally.next_frame = 7;
   tally.counts = {7, 1, 70, 2, 14, 1};
-  const std::string whole = journal_head("f00") + journal_skip({3, {1, "damaged\npicture"}}) +
-                            journal_entry(tally, {100, 5}, {200, 6});
+  std::uint32_t chain = 0;
+  std::string whole;
+  for (const std::string& line : {journal_head("f00"), journal_skip({3, {1, "damaged\npicture"}}),
+                                  journal_entry(tally, {100, 5}, {200, 6})})
+    whole += sealed_line(line, chain);
   write_file(path, whole + "done 9 9 0 9");
   const auto state = read_journal(path);
   ASSERT_TRUE(state && state->has_entry);
