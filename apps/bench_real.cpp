@@ -4,14 +4,14 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <functional>
 
 #include "apps/bench_references.h"
+#include "core/robust.h"
 #include "extraction/extract_stripes.h"
 #include "extraction/workspace.h"
 #include "io/images.h"
-#include "simulate/speckled_stripe.h"
+#include "simulate/real_stripe.h"
 
 namespace lightstripe {
 namespace {
@@ -24,52 +24,27 @@ double median_ms(int repeat, const std::function<void()>& work) {
     times.push_back(
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
   }
-  const auto middle = times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2);
-  std::nth_element(times.begin(), middle, times.end());
-  return *middle;
+  return upper_median(times);
 }
 
-/// What is added up over the pictures of one kind.
-struct SpeckleSums {
-  double points = 0, squares = 0, predicted = 0, rows = 0;
-  std::int64_t false_points = 0;
-
-  void add(const SpeckledStripe& truth, const std::vector<Stripe>& stripes) {
-    std::vector<char> found(SpeckledStripe::kHeight, 0);
-    const double reach = std::max(4.0, 5.2 * truth.sigma_px);
-    for (const Stripe& stripe : stripes)
-      for (const StripePoint& p : stripe.points) {
-        const double error = (p.x - SpeckledStripe::centre(p.y)) * SpeckledStripe::cosine(p.y);
-        if (std::abs(error) > reach) {
-          ++false_points;
-          continue;
-        }
-        points += 1;
-        squares += error * error;
-        predicted += p.sigma_px * p.sigma_px;
-        found[static_cast<std::size_t>(std::clamp<long>(std::lround(p.y), 0, SpeckledStripe::kHeight - 1))] =
-            1;
-      }
-    rows += static_cast<double>(std::count(found.begin(), found.end(), 1));
-  }
-  double rms() const { return std::sqrt(squares / std::max(points, 1.0)); }
-  double ratio() const { return predicted > 0 ? squares / predicted : 0; }
-};
-
-SpeckleScore speckle_score(const SpeckledStripe& truth, ExtractionOptions options, int pictures) {
-  SpeckleSums plain, smooth;
+SpeckleScore speckle_score(const RealStripe& truth, ExtractionOptions options, int pictures) {
+  RealScore plain, smooth;
   for (int k = 1; k <= pictures; ++k) {
-    const Image8 image = render(truth, static_cast<std::uint64_t>(k));
+    const Image8 image = picture_of(truth, static_cast<std::uint64_t>(k));
     options.smoothing = false;
-    plain.add(truth, extract_stripes(image.view(), options).stripes);
+    add_to(plain, truth, extract_stripes(image.view(), options).stripes);
     options.smoothing = true;
-    smooth.add(truth, extract_stripes(image.view(), options).stripes);
+    add_to(smooth, truth, extract_stripes(image.view(), options).stripes);
   }
-  return {truth.speckle.contrast, truth.speckle.grain_px,
-          truth.sigma_px,         plain.rows / (pictures * SpeckledStripe::kHeight),
-          plain.false_points,     plain.rms(),
-          smooth.rms(),           plain.ratio(),
-          smooth.ratio()};
+  return {truth.speckle.contrast,
+          truth.speckle.grain_px,
+          truth.sigma,
+          plain.completeness(),
+          static_cast<std::int64_t>(plain.false_points),
+          plain.rms(),
+          smooth.rms(),
+          plain.variance_ratio(),
+          smooth.variance_ratio()};
 }
 
 }  // namespace
@@ -110,8 +85,12 @@ std::vector<SpeckleScore> bench_speckle(const ExtractionOptions& options, int pi
   std::vector<SpeckleScore> scores;
   for (const double contrast : {0.15, 0.3, 0.5})
     for (const double grain : {0.8, 1.6})
-      for (const double sigma : {2.0, 4.0})
-        scores.push_back(speckle_score({{contrast, grain}, sigma, 150}, options, pictures));
+      for (const double sigma : {2.0, 4.0}) {
+        RealStripe truth;
+        truth.speckle = {contrast, grain};
+        truth.sigma = sigma;
+        scores.push_back(speckle_score(truth, options, pictures));
+      }
   return scores;
 }
 

@@ -5,6 +5,8 @@
 #include <atomic>
 #include <chrono>
 #include <csignal>
+#include <cstdint>
+#include <ctime>
 
 #include "io/atomic_file.h"
 
@@ -21,8 +23,21 @@ void clean_and_end(int signal) {
   std::raise(signal);
 }
 
+std::int64_t now_ns() {
+  timespec now{};
+  ::clock_gettime(CLOCK_MONOTONIC, &now);  // a signal handler may call it
+  return std::int64_t{now.tv_sec} * 1'000'000'000 + now.tv_nsec;
+}
+
+/// The second one ends the process. One that comes at once is the first one again: `timeout` sends its signal
+/// to the process and to the group that it is in.
 void remember(int signal) {
-  if (interrupted.exchange(true)) clean_and_end(signal);  // the second one ends the process
+  constexpr std::int64_t kOnePress = 300'000'000;  // ns
+  static std::atomic<std::int64_t> first_ns{0};
+  if (!interrupted.exchange(true))
+    first_ns = now_ns();
+  else if (now_ns() - first_ns > kOnePress)
+    clean_and_end(signal);
 }
 
 void set_handler(int signal, void (*handler)(int)) {

@@ -2,13 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pipeline/verify_job.h"
 
-#include "core/error.h"
-#include "io/atomic_file.h"
-#include "io/rig_file.h"
-#include "io/session_file.h"
-#include "pipeline/artefact_job.h"
-#include "report/artefact_report.h"
-
 #include <fmt/format.h>
 
 #include <cmath>
@@ -16,6 +9,12 @@
 #include "apps/command.h"
 #include "apps/options.h"
 #include "apps/progress.h"
+#include "core/error.h"
+#include "io/atomic_file.h"
+#include "io/rig_file.h"
+#include "io/session_file.h"
+#include "pipeline/artefact_job.h"
+#include "report/artefact_report.h"
 
 namespace lightstripe {
 namespace {
@@ -61,10 +60,10 @@ ArtefactJob artefact_job_of(const VerifyArguments& arguments) {
   job.spec.size_mm = given.size_mm, job.size_sigma_mm = given.size_sigma_mm;
   job.max_error_mm = given.max_error_mm, job.max_drift_mm = given.max_drift_mm;
   job.sensor = given.sensor;
-  const bool is_scan = job.input.extension() == ".yaml" || job.input.extension() == ".yml";
-  if (is_scan) read_subtree(read_scan(job.input).extraction, job.extraction);
+  if (shows_scan(job.input)) read_subtree(read_scan(job.input).extraction, job.extraction);
   apply_overrides(job.extraction, arguments.extraction);
   if (!arguments.common.output.empty()) job.table = arguments.common.output;
+  if (!given.report.empty()) job.other_outputs = {given.report};
   job.threads = arguments.common.threads;
   return job;
 }
@@ -115,11 +114,10 @@ int run_verify(const VerifyArguments& arguments) {
 
 void add_artefact_options(CLI::App& command, ArtefactArguments& artefact) {
   const char* group = "A body of known size instead of boards";
-  auto* kind =
-      command
-          .add_option("--artefact", artefact.kind, "step, cylinder or sphere; SESSION is a scan or a picture")
-          ->check(CLI::IsMember({"step", "cylinder", "sphere"}))
-          ->group(group);
+  auto* kind = one_of(command.add_option("--artefact", artefact.kind,
+                                         "step, cylinder or sphere; SESSION is a scan or a picture"),
+                      {"step", "cylinder", "sphere"})
+                   ->group(group);
   const auto add_mm = [&](const char* name, double& value, const char* what) {
     command.add_option(name, value, what)->check(CLI::NonNegativeNumber)->needs(kind)->group(group);
   };

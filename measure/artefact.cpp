@@ -67,10 +67,7 @@ bool is_seen_well(const Used& used, const RoundBody& body) {
   constexpr double kMostPoints = 0.9, kLeastReach = 0.4;  // rad
   std::vector<Vector3d> normals;
   Vector3d mean = Vector3d::Zero();
-  for (const Vector3d& p : used.points) {
-    const Vector3d from = p - body.center;
-    mean += normals.emplace_back((from - body.axis * body.axis.dot(from)).normalized());
-  }
+  for (const Vector3d& p : used.points) mean += normals.emplace_back(body.way_out(p).normalized());
   mean.normalize();
   std::vector<double> cosines;
   for (const Vector3d& n : normals) cosines.push_back(n.dot(mean));
@@ -246,10 +243,7 @@ std::optional<ArtefactMeasurement> measure_round(const Points3& points, const st
     return std::nullopt;
   }
   Points3 normals;
-  for (const Vector3d& p : used.points) {
-    const Vector3d from = p - body.center;
-    normals.push_back((from - body.axis * body.axis.dot(from)).normalized());
-  }
+  for (const Vector3d& p : used.points) normals.push_back(body.way_out(p).normalized());
   return measured(
       used, normals, [&](const Used& some) { return round_size(some, spec, body); },
       [&](std::size_t i) { return body.distance(used.points[i]); }, why_not);

@@ -29,9 +29,8 @@ std::array<Vector3d, 2> square_to(const Vector3d& axis) {
 using Row = Eigen::Matrix<double, 6, 1>;
 
 Row derivative(const RoundBody& body, const Vector3d& p, bool free_axis) {
-  const Vector3d from = p - body.center;
-  const double along = body.axis.dot(from);
-  const Vector3d out = (from - body.axis * along).normalized();
+  const double along = body.axis.dot(p - body.center);
+  const Vector3d out = body.way_out(p).normalized();
   Row row = Row::Zero();
   row(5) = -1;
   if (body.axis.isZero()) {

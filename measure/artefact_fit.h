@@ -26,10 +26,12 @@ struct RoundBody {
   Eigen::Vector3d axis = Eigen::Vector3d::Zero();  ///< unit, or zero
   double radius = 0;
 
-  double distance(const Eigen::Vector3d& p) const {
+  /// From the axis, or the centre of a ball, straight to the point.
+  Eigen::Vector3d way_out(const Eigen::Vector3d& p) const {
     const Eigen::Vector3d from = p - center;
-    return (from - axis * axis.dot(from)).norm() - radius;
+    return from - axis * axis.dot(from);
   }
+  double distance(const Eigen::Vector3d& p) const { return way_out(p).norm() - radius; }
 };
 /// Gauss-Newton on the sum of squared distances (geometric fit: Ahn, Rauh, Warnecke 2001) from a start value;
 /// the direction of an axis stays as it is unless `free_axis`.

@@ -76,6 +76,12 @@ RoundBody ball_through(const std::array<Vector3d, 4>& p) {
   return {p[0] + c, Vector3d::Zero(), c.norm()};
 }
 
+/// Normal of a face through three points (of a section: two and the travel).
+Vector3d face_normal(const std::array<Vector3d, 3>& p, bool section) {
+  const Vector3d along = section ? Vector3d::UnitX() : Vector3d(p[2] - p[0]);
+  return (p[1] - p[0]).cross(along).normalized();
+}
+
 /// Without the plane (of a section: the straight line) that most bodies stand on, where it holds a third of
 /// the points or more.
 Points3 without_ground(const Points3& points, const ArtefactSpec& spec) {
@@ -86,14 +92,13 @@ Points3 without_ground(const Points3& points, const ArtefactSpec& spec) {
   ParallelFaces ground;
   std::ptrdiff_t most = 0;
   for (int trial = 0; trial < kGroundTrials; ++trial) {
-    const Vector3d &a = points[any_index(random, points.size())],
-                   &b = points[any_index(random, points.size())],
-                   &c = points[any_index(random, points.size())];
-    const Vector3d along = spec.section ? Vector3d::UnitX() : Vector3d(c - a);
+    const std::array<Vector3d, 3> p{points[any_index(random, points.size())],
+                                    points[any_index(random, points.size())],
+                                    points[any_index(random, points.size())]};
     ParallelFaces faces;
-    faces.normal = (b - a).cross(along).normalized();
+    faces.normal = face_normal(p, spec.section);
     if (!faces.normal.allFinite()) continue;
-    faces.offset[0] = faces.normal.dot(a);
+    faces.offset[0] = faces.normal.dot(p[0]);
     const auto on_it = std::count_if(points.begin(), points.end(), [&](const Vector3d& p) {
       return std::abs(faces.distance(p, 0)) < width;
     });
@@ -107,12 +112,6 @@ Points3 without_ground(const Points3& points, const ArtefactSpec& spec) {
 }
 
 // ---- steps
-
-/// Normal of a face through three points (of a section: two and the travel).
-Vector3d face_normal(const std::array<Vector3d, 3>& p, bool section) {
-  const Vector3d along = section ? Vector3d::UnitX() : Vector3d(p[2] - p[0]);
-  return (p[1] - p[0]).cross(along).normalized();
-}
 
 /// The second face's offset: the window as wide as `width` about it that holds most points, at about the
 /// known height on either side.
@@ -205,4 +204,5 @@ std::optional<ParallelFaces> find_step(const Points3& all, const ArtefactSpec& s
   }
   return best;
 }
+
 }  // namespace lightstripe

@@ -28,10 +28,6 @@ std::vector<Vector2d> thinned(const Section& section) {
   return out;
 }
 
-double quantile(std::vector<double> values, double share) {
-  return value_at_rank(values, static_cast<std::size_t>(share * static_cast<double>(values.size() - 1)));
-}
-
 /// The point of the section that is laid near the reference's top: the highest, a rail's in the middle of the
 /// width.
 Vector2d anchor_of(const std::vector<Vector2d>& points, ObjectKind kind) {

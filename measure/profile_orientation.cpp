@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "core/robust.h"
-#include "measure/robust_line.h"
 
 namespace lightstripe {
 namespace {

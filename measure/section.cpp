@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "core/robust.h"
-#include "measure/robust_line.h"
 
 namespace lightstripe {
 namespace {

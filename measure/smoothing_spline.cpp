@@ -8,7 +8,6 @@
 
 #include "core/error.h"
 #include "core/robust.h"
-#include "measure/robust_line.h"
 
 namespace lightstripe {
 namespace {

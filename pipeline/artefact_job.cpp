@@ -15,7 +15,9 @@
 #include "io/atomic_file.h"
 #include "io/csv_reader.h"
 #include "io/images.h"
+#include "io/output_guard.h"
 #include "io/session_file.h"
+#include "io/tables.h"
 #include "pipeline/recording.h"
 #include "pipeline/run_record.h"
 #include "reconstruct/scanner.h"
@@ -26,9 +28,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view kHead =
-    "time,rig,input,artefact,size_mm,measured_mm,error_mm,sigma_mm,scatter_mm,points,limit_mm,drift_mm,drift_"
-    "sigma_"
-    "mm,verdict\n";
+    "time,rig,input,artefact,size_mm,measured_mm,error_mm,sigma_mm,scatter_mm,points,limit_mm,drift_mm,"
+    "drift_sigma_mm,verdict\n";
 
 struct SeenPoints {
   std::vector<Eigen::Vector3d> points;
@@ -37,8 +38,6 @@ struct SeenPoints {
 
   double mean_sigma() const { return points.empty() ? 0 : sigma_sum / static_cast<double>(points.size()); }
 };
-
-bool is_scan(const fs::path& input) { return input.extension() == ".yaml" || input.extension() == ".yml"; }
 
 /// Every frame is a group.
 SeenPoints points_of_scan(const ArtefactJob& job, const ProgressCallback& progress,
@@ -107,12 +106,6 @@ SeenPoints points_of_picture(const ArtefactJob& job) {
 
 std::string now_utc() { return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr))); }
 
-std::string name_of(Artefact kind) {
-  for (const auto& entry : enum_names(kind))
-    if (entry.value == kind) return std::string(entry.name);
-  return "";
-}
-
 /// The rows of the same body.
 std::vector<ArtefactCheck> same_body(std::vector<ArtefactCheck> checks, const ArtefactCheck& as) {
   std::erase_if(checks, [&](const ArtefactCheck& c) {
@@ -126,7 +119,7 @@ ArtefactCheck check_of(const ArtefactJob& job, const ArtefactMeasurement& m, dou
   ArtefactCheck check;
   check.time = now_utc();
   check.rig = job.rig_file.string(), check.input = job.input.string();
-  check.artefact = name_of(job.spec.kind);
+  check.artefact = std::string(enum_name(job.spec.kind));
   check.size_mm = job.spec.size_mm, check.measured_mm = m.size_mm;
   check.error_mm = m.size_mm - job.spec.size_mm;
   check.sigma_mm = std::hypot(m.sigma_mm, shared_mm);
@@ -157,21 +150,24 @@ std::string why_failed(const ArtefactJob& job, const ArtefactCheck& check) {
   return why.empty() ? why : why + "; clean lens and body and repeat, then calibrate anew";
 }
 
-std::string quoted_cell(const std::string& text) {
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
-  std::string out = "\"";
-  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return out + "\"";
-}
-
 std::string row_of(const ArtefactCheck& c) {
   const auto cell = [](const std::optional<double>& value) {
     return value ? fmt::format("{:.5f}", *value) : "";
   };
   return fmt::format("{},{},{},{},{:g},{:.5f},{:.5f},{:.5f},{:.5f},{},{:.5f},{},{},{}\n", c.time,
-                     quoted_cell(c.rig), quoted_cell(c.input), c.artefact, c.size_mm, c.measured_mm,
-                     c.error_mm, c.sigma_mm, c.scatter_mm, c.points, c.limit_mm, cell(c.drift_mm),
-                     cell(c.drift_sigma_mm), c.verdict);
+                     csv_cell(c.rig), csv_cell(c.input), c.artefact, c.size_mm, c.measured_mm, c.error_mm,
+                     c.sigma_mm, c.scatter_mm, c.points, c.limit_mm, cell(c.drift_mm), cell(c.drift_sigma_mm),
+                     c.verdict);
+}
+
+void guard(const ArtefactJob& job) {
+  std::vector<fs::path> inputs{job.input, job.rig_file}, outputs = job.other_outputs;
+  if (shows_scan(job.input)) {
+    const std::vector<fs::path> files = files_of(read_scan(job.input));
+    inputs.insert(inputs.end(), files.begin(), files.end());
+  }
+  if (!job.table.empty()) outputs.insert(outputs.end(), {job.table, job.table.string() + ".run.yaml"});
+  guard_outputs(inputs, outputs);
 }
 
 /// Earlier rows stay as they are, byte by byte.
@@ -185,6 +181,8 @@ void append_row(const ArtefactJob& job, const ArtefactCheck& check) {
 }
 
 }  // namespace
+
+bool shows_scan(const fs::path& input) { return input.extension() == ".yaml" || input.extension() == ".yml"; }
 
 std::vector<ArtefactCheck> read_artefact_checks(const fs::path& table) {
   std::vector<ArtefactCheck> checks;
@@ -214,11 +212,12 @@ std::vector<ArtefactCheck> read_artefact_checks(const fs::path& table) {
 
 ArtefactResult verify_artefact(const ArtefactJob& job, const ProgressCallback& progress,
                                const std::stop_token& stop) {
+  guard(job);
   const JobThreads threads(job.threads);
   const bool known_before = !job.table.empty() && fs::exists(job.table);
   const auto before = known_before ? read_artefact_checks(job.table) : std::vector<ArtefactCheck>{};
   ArtefactSpec spec = job.spec;
-  spec.section = !is_scan(job.input);
+  spec.section = !shows_scan(job.input);
   const SeenPoints seen = spec.section ? points_of_picture(job) : points_of_scan(job, progress, stop);
   ArtefactResult result;
   std::string why_not;

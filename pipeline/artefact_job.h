@@ -29,7 +29,8 @@ struct ArtefactJob {
   double max_error_mm = 0;                              ///< 0: three sigma
   double max_drift_mm = 0;                              ///< against the last check; 0: not checked
   std::filesystem::path table = "artefact_checks.csv";  ///< grows by one row a check; empty: not kept
-  int threads = 0;
+  std::vector<std::filesystem::path> other_outputs;     ///< what else is written: must not be an input either
+  int threads = 0;                                      ///< 0 = all cores
 };
 
 /// One row of the table.
@@ -56,6 +57,9 @@ struct ArtefactResult {
 /// Appends the check to the table and writes <table>.run.yaml. An Error where a file is wrong.
 ArtefactResult verify_artefact(const ArtefactJob& job, const ProgressCallback& progress = {},
                                const std::stop_token& stop = {});
+
+/// Whether the input of a job is a scan; else it is a picture.
+bool shows_scan(const std::filesystem::path& input);
 
 /// The rows of a table of checks, oldest first.
 std::vector<ArtefactCheck> read_artefact_checks(const std::filesystem::path& table);

@@ -38,22 +38,8 @@ void write_cameras(const fs::path& folder, const Rig& rig, std::vector<std::stri
 
 /// The session with all that it names.
 std::vector<fs::path> inputs_of(const CalibrateJob& job) {
-  const Session& session = job.session;
   std::vector<fs::path> inputs{job.session_file};
-  const auto add = [&](const std::string& pattern) {
-    for (const auto& file : list_files(session.folder, pattern)) inputs.push_back(file);
-  };
-  for (const SessionSensor& sensor : session.sensors) {
-    add(sensor.board);
-    if (sensor.laser) add(*sensor.laser);
-    if (sensor.background) add(*sensor.background);
-    if (sensor.camera)  // a rig names its sensor behind a '#'
-      inputs.push_back(session.folder / sensor.camera->substr(0, sensor.camera->rfind('#')));
-  }
-  if (session.motion) {
-    add(session.motion->board);
-    inputs.push_back(session.folder / session.motion->travel);
-  }
+  for (const fs::path& file : files_of(job.session)) inputs.push_back(file);
   std::vector<fs::path> once;  // a board with the stripe on it serves twice
   for (const fs::path& input : inputs)
     if (std::find(once.begin(), once.end(), input) == once.end()) once.push_back(input);

@@ -20,6 +20,7 @@
 #include "io/output_guard.h"
 #include "measure/profile_formats.h"
 #include "pipeline/measure_input.h"
+#include "pipeline/recorded_profile.h"
 #include "pipeline/run_record.h"
 
 namespace lightstripe {
@@ -46,12 +47,8 @@ std::vector<Vector2d> read_csv_points(const std::string& path) {
   return points;
 }
 
-RecordedProfile read_recorded(const std::string& path, ProfileFormat format, ObjectKind kind) {
-  refuse_special_file(path);
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw Error(path, "cannot be read", "check the name");
-  RecordedProfile profile =
-      format == ProfileFormat::kMiniProf ? read_miniprof(in, path, kind) : read_simpack(in, path);
+RecordedProfile recorded_of(const std::string& path, ProfileFormat format, ObjectKind kind) {
+  RecordedProfile profile = read_recorded(path, format, kind);
   if (profile.kind != kind) throw Error(path, "is a " + kind_name(profile.kind), "give a " + kind_name(kind));
   return profile;
 }
@@ -63,7 +60,7 @@ Source read_source(const std::string& source, ObjectKind kind) {
     out.points = read_csv_points(source);
     out.own_level = true;
   } else if (const auto format = profile_format(source)) {
-    out.points = read_recorded(source, *format, kind).points;
+    out.points = recorded_of(source, *format, kind).points;
   } else {
     const NominalProfile nominal = read_nominal_profile(source);
     if (nominal.kind != kind_name(kind))

@@ -29,7 +29,7 @@ struct Memory {
 /// As reconstruct does it, so that the points are those of the recorded run.
 template <class T>
 void extract(ImageView<T> image, const ExtractionOptions& options, std::int64_t frame, Memory& memory) {
-  const std::int64_t key_frame = frame - frame % kTrackedFrames;
+  const std::int64_t key_frame = key_frame_of(frame);
   if (!options.track || frame == key_frame || key_frame != memory.key_frame) {
     extract_stripes(image, options, memory.workspace, memory.result);
     if (frame != key_frame) return;

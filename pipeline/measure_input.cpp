@@ -15,16 +15,13 @@
 #include "io/tables.h"
 #include "measure/profile_formats.h"
 #include "measure/robust_line.h"
+#include "pipeline/recorded_profile.h"
 
 namespace lightstripe {
 namespace {
 
-RecordedProfile read_recorded(const std::string& path, ProfileFormat format, ObjectKind kind) {
-  refuse_special_file(path);
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw Error(path, "cannot be read", "check the name");
-  RecordedProfile profile =
-      format == ProfileFormat::kMiniProf ? read_miniprof(in, path, kind) : read_simpack(in, path);
+RecordedProfile recorded_of(const std::string& path, ProfileFormat format, ObjectKind kind) {
+  RecordedProfile profile = read_recorded(path, format, kind);
   if (profile.kind != kind)
     throw Error(path, "is a " + kind_name(profile.kind), "give --kind " + kind_name(profile.kind));
   return profile;
@@ -100,7 +97,7 @@ std::optional<double> median_rms(const std::vector<Profile>& profiles, const std
 std::string kind_name(ObjectKind kind) { return kind == ObjectKind::kRail ? "rail" : "wheel"; }
 
 MeasureInput read_measure_input(const std::string& path, ObjectKind kind) {
-  if (const auto format = profile_format(path)) return input_of(read_recorded(path, *format, kind), path);
+  if (const auto format = profile_format(path)) return input_of(recorded_of(path, *format, kind), path);
   MeasureInput input;
   input.file = path;
   input.kind = kind;
@@ -117,7 +114,7 @@ MeasureInput read_measure_input(const std::string& path, ObjectKind kind) {
 ReferenceShape read_reference(const std::string& nominal, ObjectKind kind) {
   const std::string name = !nominal.empty() ? nominal : kind == ObjectKind::kRail ? "60E1" : "S1002";
   if (const auto format = profile_format(name)) {
-    const Section baseline = section_of(read_recorded(name, *format, kind));
+    const Section baseline = section_of(recorded_of(name, *format, kind));
     const Outline chain = outline_of_section(baseline);
     // Material lies on the left of an outline's passage: a rail's head runs from right to left, a wheel from
     // field to flange.

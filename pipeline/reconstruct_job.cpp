@@ -208,8 +208,7 @@ void close_output(const Run& run, ScanOutput& output, ReconstructResult& result)
   output.forget_journal();
 }
 
-void guard(const Run& run) {
-  const ReconstructJob& job = run.job;
+void guard(const ReconstructJob& job) {
   std::vector<fs::path> inputs = files_of(job.scan), outputs = job.other_outputs;
   inputs.push_back(job.scan_file);
   inputs.push_back(job.rig_file);
@@ -377,10 +376,10 @@ ReconstructResult reconstruct(const ReconstructJob& job, const ProgressCallback&
                               const std::stop_token& stop) {
   const JobThreads threads(job.threads);
   refuse_camera_without_follow(job);
+  guard(job);
   if (job.follow) return reconstruct_following(job, progress, stop);
   const Run run = open_run(job);
   refuse_vanished_frames(run);
-  guard(run);
   ScanOutput output(output_options(run));
   const std::int64_t points_before = output.tally().counts.points;
   if (job.on_profile && points_before > 0)

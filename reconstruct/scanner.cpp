@@ -9,6 +9,7 @@
 #include <exception>
 
 #include "core/error.h"
+#include "core/robust.h"
 #include "extraction/track/track_stripes.h"
 #include "extraction/workspace.h"
 #include "parallel/parallel.h"
@@ -95,9 +96,7 @@ double median_width(const Stripe& stripe) {
   std::vector<double> widths;
   widths.reserve(stripe.points.size());
   for (const StripePoint& p : stripe.points) widths.push_back(p.width);
-  const auto middle = widths.begin() + static_cast<std::ptrdiff_t>(widths.size() / 2);
-  std::nth_element(widths.begin(), middle, widths.end());
-  return *middle;
+  return upper_median(widths);
 }
 
 ScannedFrame scan_frame(const PlacedFrame& placed, const ScanInput& input, const Rig& rig,
@@ -196,7 +195,7 @@ class TrackedScan {
       : input_(input), rig_(rig), options_(options) {}
 
   SensorStripes operator()(std::int64_t frame, int sensor) {
-    const std::int64_t key_frame = frame - ((frame % kTrackedFrames) + kTrackedFrames) % kTrackedFrames;
+    const std::int64_t key_frame = key_frame_of(frame);
     const bool recorded = !input_.recorded || input_.recorded(key_frame);
     const auto key = recorded ? keys_.get(key_frame, sensor, [&] { return key_of(key_frame, sensor); })
                               : std::make_shared<const KeyFrame>();

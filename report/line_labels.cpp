@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
+#include "core/robust.h"
 #include "io/atomic_file.h"
 
 namespace lightstripe {
@@ -85,9 +86,7 @@ double median(std::size_t begin, std::size_t end, const Value& value) {
   std::vector<double> values;
   for (std::size_t i = begin; i < end; ++i) values.push_back(value(i));
   if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+  return upper_median(values);
 }
 
 /// The relief along a stretch of a label, medians.

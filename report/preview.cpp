@@ -22,11 +22,9 @@ struct Span {
 /// The middle 99.8 % of the values, and no farther from the middle 90 % than these span: stray points must
 /// not shrink the picture.
 Span robust_span(std::vector<float> values) {
-  const auto quantile = [&](double part) {
-    return value_at_rank(values, static_cast<std::size_t>(part * static_cast<double>(values.size() - 1)));
-  };
-  const float low = quantile(0.05), high = quantile(0.95), reach = std::max(high - low, 1e-3F);
-  return {std::max(quantile(0.001), low - reach), std::min(quantile(0.999), high + reach) + 1e-3F};
+  const auto at = [&](double share) { return quantile(values, share); };
+  const float low = at(0.05), high = at(0.95), reach = std::max(high - low, 1e-3F);
+  return {std::max(at(0.001), low - reach), std::min(at(0.999), high + reach) + 1e-3F};
 }
 
 /// Points to (right, up, towards the viewer).

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/robust.h"
+
 namespace lightstripe {
 namespace {
 
@@ -39,20 +41,18 @@ struct Tally {
     cover += s.score.cover();
   }
   std::string row(const std::string& set, const std::string& method) {
-    const auto middle = times_ms.begin() + static_cast<std::ptrdiff_t>(times_ms.size() / 2);
-    std::nth_element(times_ms.begin(), middle, times_ms.end());
     return fmt::format("| {} | {} | {} of {} | {} | {:.1f} % | {} of {} | {} | {:.2f} | {:.1f} |\n", set,
                        method, complete, lit, missed, lit > 0 ? 100 * cover / lit : 100.0, with_false,
-                       pictures, near > 0 ? fmt::format("{:.2f}", std::sqrt(squares / near)) : "", *middle,
-                       slowest);
+                       pictures, near > 0 ? fmt::format("{:.2f}", std::sqrt(squares / near)) : "",
+                       upper_median(times_ms), slowest);
   }
 };
 
 std::string picture_table(const std::vector<MethodScore>& scores) {
   std::string text =
-      "| set | method | complete | missed | labelled length found | with false lines | rms px | ms | least "
-      "times "
-      "faster than opencv-steger |\n|---|---|---:|---:|---:|---:|---:|---:|---:|\n";
+      R"(| set | method | complete | missed | labelled length found | with false lines | rms px | ms | least times faster than opencv-steger |
+|---|---|---:|---:|---:|---:|---:|---:|---:|
+)";
   std::vector<std::string> sets = names(scores, &MethodScore::set);
   sets.insert(sets.begin(), "all");
   for (const std::string& set : sets)
@@ -67,9 +67,9 @@ std::string picture_table(const std::vector<MethodScore>& scores) {
 
 std::string speckle_table(const std::vector<SpeckleScore>& speckle) {
   std::string text =
-      "| contrast | grain px | stripe s px | complete | false points | rms px | with smoothing | actual / "
-      "predicted "
-      "variance | with smoothing |\n|---:|---:|---:|---:|---:|---:|---:|---:|---:|\n";
+      R"(| contrast | grain px | stripe s px | complete | false points | rms px | with smoothing | actual / predicted variance | with smoothing |
+|---:|---:|---:|---:|---:|---:|---:|---:|---:|
+)";
   for (const SpeckleScore& s : speckle)
     text += fmt::format("| {:.2f} | {:.1f} | {:.0f} | {:.1f} % | {} | {:.3f} | {:.3f} | {:.2f} | {:.2f} |\n",
                         s.contrast, s.grain_px, s.sigma_px, 100 * s.completeness, s.false_points, s.rms_px,
@@ -108,28 +108,26 @@ std::string hard_pictures(const std::vector<MethodScore>& scores) {
 
 std::string real_pictures_page(const std::vector<MethodScore>& scores,
                                const std::vector<SpeckleScore>& speckle) {
-  return "# Real pictures\n\n"
-         "Made by `lightstripe bench --labels FOLDER -o docs/real_pictures.md`: every extraction method with "
-         "its "
-         "default options on\npictures of public rigs whose lines were marked by hand, and on rendered "
-         "speckle. The "
-         "pictures are not part of this project.\n\n"
-         "A picture is complete when 95 % of its marked length has a point within max(2 px, 0.35 of the "
-         "bar's "
-         "width), missed below 5 %;\nit has false lines when more than 2 % of its points, and more than 8, "
-         "lie "
-         "farther than max(3 px, 0.75 of the width) from every mark.\nThe marks hold to about a pixel: rms "
-         "px "
-         "compares methods, it is no error of theirs. Times are medians on one thread.\n\n"
-         "## By set and method\n\n" +
-         picture_table(scores) +
-         "\n## Speckle\n\nA curved line of 480 rows, 150 grey levels high, default options, several pictures "
-         "a row; "
-         "rms across the line against the known centre.\nThe variance that `sigma_px` predicts should be the "
-         "actual "
-         "one: 1.\n\n" +
-         speckle_table(speckle) + "\n## What remains hard\n\nOf the default method, picture by picture:\n\n" +
-         hard_pictures(scores);
+  return R"(# Real pictures
+
+Made by `lightstripe bench --labels FOLDER -o docs/real_pictures.md`: every extraction method with its default options on
+pictures of public rigs whose lines were marked by hand, and on rendered speckle. The pictures are not part of this project.
+
+A picture is complete when 95 % of its marked length has a point within max(2 px, 0.35 of the bar's width), missed below 5 %;
+it has false lines when more than 2 % of its points, and more than 8, lie farther than max(3 px, 0.75 of the width) from every mark.
+The marks hold to about a pixel: rms px compares methods, it is no error of theirs. Times are medians on one thread.
+
+## By set and method
+
+)" + picture_table(scores) +
+         R"(
+## Speckle
+
+A curved line of 480 rows, 150 grey levels high, default options, several pictures a row; rms across the line against the known centre.
+The variance that `sigma_px` predicts should be the actual one: 1.
+
+)" + speckle_table(speckle) +
+         "\n## What remains hard\n\nOf the default method, picture by picture:\n\n" + hard_pictures(scores);
 }
 
 }  // namespace lightstripe

@@ -33,8 +33,7 @@ cv::Scalar rgb_of(double difference) {
 double enlargement(std::vector<double> sizes) {
   constexpr double kLongestMm = 12;
   if (sizes.empty()) return 10;
-  const double nearly_all =
-      value_at_rank(sizes, static_cast<std::size_t>(0.97 * static_cast<double>(sizes.size() - 1)));
+  const double nearly_all = quantile(sizes, 0.97);
   for (const double factor : {50.0, 20.0, 10.0, 5.0, 2.0})
     if (nearly_all * factor <= kLongestMm) return factor;
   return 1;

@@ -18,6 +18,7 @@
 #include <numbers>
 #include <opencv2/calib3d.hpp>
 
+#include "calib/adjust/parameter_blocks.h"
 #include "calib/adjust/rig_state.h"
 #include "core/robust.h"
 
@@ -26,7 +27,6 @@ namespace {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
-using PoseManifold = ceres::ProductManifold<ceres::EigenQuaternionManifold, ceres::EuclideanManifold<3>>;
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 
 constexpr double kDegree = std::numbers::pi / 180;
@@ -38,15 +38,10 @@ struct Spread {
 };
 
 struct Block {
-  std::array<double, 7> values;  ///< quaternion x y z w, translation
+  PoseBlock values;
 
-  explicit Block(const Rigid3& pose)
-      : values{pose.rotation.x(),    pose.rotation.y(),    pose.rotation.z(),   pose.rotation.w(),
-               pose.translation.x(), pose.translation.y(), pose.translation.z()} {}
-  Rigid3 pose() const {
-    return {Eigen::Quaterniond(values[3], values[0], values[1], values[2]).normalized(),
-            {values[4], values[5], values[6]}};
-  }
+  explicit Block(const Rigid3& pose) : values(pose_block_of(pose)) {}
+  Rigid3 pose() const { return pose_of(values.data()); }
 };
 
 /// The error of one pose; blocks: tool_from_first, base_from_board.

@@ -10,39 +10,16 @@
 #include <algorithm>
 
 #include "calib/adjust/board_surface.h"
+#include "calib/adjust/parameter_blocks.h"
 #include "calib/adjust/residuals.h"
 #include "core/error.h"
 
 namespace lightstripe {
 namespace {
 
-using PoseManifold = ceres::ProductManifold<ceres::EigenQuaternionManifold, ceres::EuclideanManifold<3>>;
 using PlaneManifold = ceres::ProductManifold<ceres::SphereManifold<3>, ceres::EuclideanManifold<1>>;
 
 constexpr std::size_t kWellKnownTerms = 5;  // a model with more of them has terms that trade off
-
-std::array<double, kIntrinsics> intrinsics_block_of(const Camera& camera) {
-  std::array<double, kIntrinsics> block{camera.fx, camera.fy, camera.cx, camera.cy};
-  std::copy(camera.distortion.begin(), camera.distortion.end(), block.begin() + 4);
-  return block;
-}
-
-Camera camera_of(const Camera& like, const double* block) {
-  Camera camera{like.width, like.height, block[0], block[1], block[2], block[3], {}};
-  std::copy(block + 4, block + kIntrinsics, camera.distortion.begin());
-  return camera;
-}
-
-std::array<double, 7> pose_block_of(const Rigid3& pose) {
-  const auto& q = pose.rotation;
-  const auto& t = pose.translation;
-  return {q.x(), q.y(), q.z(), q.w(), t.x(), t.y(), t.z()};
-}
-
-Rigid3 pose_of(const double* block) {
-  return {Eigen::Quaterniond(block[3], block[0], block[1], block[2]).normalized(),
-          {block[4], block[5], block[6]}};
-}
 
 std::array<double, 4> plane_block_of(const Plane& plane) {
   return {plane.normal.x(), plane.normal.y(), plane.normal.z(), plane.offset};
@@ -53,15 +30,6 @@ Plane plane_of(const double* block) {
 }
 
 std::array<double, 3> block_of(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
-
-/// The distortion terms that the model does not have stay as they are.
-ceres::Manifold* intrinsics_manifold(LensModel lens) {
-  const auto free = free_terms(lens);
-  std::vector<int> fixed;
-  for (int i = 0; i < kDistortionTerms; ++i)
-    if (std::find(free.begin(), free.end(), i) == free.end()) fixed.push_back(4 + i);
-  return new ceres::SubsetManifold(kIntrinsics, fixed);
-}
 
 /// A point of the axis is free across it only: the coordinate along the axis' largest component stays.
 ceres::Manifold* axis_point_manifold(const Eigen::Vector3d& direction) {

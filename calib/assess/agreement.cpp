@@ -8,7 +8,6 @@
 #include <map>
 
 #include "calib/assess/verdict.h"
-
 #include "core/robust.h"
 
 namespace lightstripe {

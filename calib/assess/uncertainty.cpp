@@ -40,10 +40,8 @@ MatrixXd derivative(const JointAdjustment& adjustment, const F& f) {
 }
 
 /// Root of the summed variances of f's components.
-template <class F>
-double total_sigma(const JointAdjustment& adjustment, const F& f) {
-  const MatrixXd J = derivative(adjustment, f);
-  return std::sqrt((J * adjustment.covariance * J.transpose()).trace());
+double total_sigma(const JointAdjustment& adjustment, const std::function<VectorXd(const RigState&)>& f) {
+  return std::sqrt(covariance_of(adjustment, f).trace());
 }
 
 void add_intrinsics(const JointAdjustment& adjustment, const GlobalBlock& block, const std::string& name,
@@ -92,12 +90,6 @@ double axis_sigma_mm(const JointAdjustment& adjustment) {
 }
 
 }  // namespace
-
-Eigen::MatrixXd covariance_of(const JointAdjustment& adjustment,
-                              const std::function<VectorXd(const RigState&)>& f) {
-  const MatrixXd J = derivative(adjustment, f);
-  return J * adjustment.covariance * J.transpose();
-}
 
 std::map<std::string, double> parameter_sigmas(const SessionViews& session,
                                                const JointAdjustment& adjustment) {
@@ -183,6 +175,12 @@ SectionUncertainty section_uncertainty(const SessionViews& session, const JointA
                      static_cast<double>(samples.size()));
   };
   return {rms(J), rms(shape)};
+}
+
+Eigen::MatrixXd covariance_of(const JointAdjustment& adjustment,
+                              const std::function<VectorXd(const RigState&)>& f) {
+  const MatrixXd J = derivative(adjustment, f);
+  return J * adjustment.covariance * J.transpose();
 }
 
 }  // namespace lightstripe

@@ -11,9 +11,6 @@
 namespace lightstripe {
 namespace {
 
-/// Start no new line once fewer labels are left than one long line may need.
-constexpr std::uint16_t kLastLabel = 60000;
-
 /// Cells of the mask, about as large as the kernel's scale: fine enough for stripes of that scale, and no
 /// smaller than an evaluation's stride.
 int mask_cell_shift(double sigma) { return sigma < 2 ? 0 : sigma < 3 ? 1 : 2; }
@@ -130,7 +127,7 @@ void follow_lines(ImageView<T> image, const DerivativeKernels& kernels, const Ri
   if (enough_lines(rule, lines)) return;
   look_for_seeds(image, kernels.sigma, limits, rule.brightest, workspace);
   for (const LineSeed& seed : workspace.seeds.sorted) {
-    if (labels.current >= kLastLabel) break;
+    if (labels.current >= ExclusionMask::kLastLabel) break;
     if (try_seed(finder, seed.x, seed.y, labels, workspace, lines) && enough_lines(rule, lines)) break;
   }
 }

@@ -16,6 +16,9 @@ class ExclusionMask {
   static constexpr std::uint16_t kDead =
       0xFFFF;  ///< looked at and found to be no line: no start, but no obstacle
 
+  /// No new line begins with a label from here on: fewer are left than one long line may need.
+  static constexpr std::uint16_t kLastLabel = 60000;
+
   /// All free; cells of 2^cell_shift x 2^cell_shift pixels.
   void reset(int width, int height, int cell_shift);
 

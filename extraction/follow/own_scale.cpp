@@ -366,11 +366,10 @@ void LineFinder<T>::try_seed(const ScaleSeed& seed) {
 
 template <class T>
 void LineFinder<T>::run() {
-  constexpr std::uint16_t kLastLabel = 60000;  // start no new line with fewer labels left than one needs
   prepare();
   const double most_futile = search_.tuning.futile_points * (search_.image.width + search_.image.height);
   for (const ScaleSeed& seed : w_.seeds) {
-    if (labels_.current >= kLastLabel || futile_ > most_futile) return;
+    if (labels_.current >= ExclusionMask::kLastLabel || futile_ > most_futile) return;
     if (seed.rank * search_.brightest < 255 * search_.tuning.faintest_seed * strongest_) return;
     try_seed(seed);
     if (search_.stop_after > 0 && lines_ >= search_.stop_after) return;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/robust.h"
 #include "extraction/follow/line_point.h"
 #include "extraction/image/noise.h"
 
@@ -44,6 +45,23 @@ void halve(ImageView<T> from, const SearchWindows& windows, int level, Image<T>&
     for (const ColumnSpan& span : windows.spans(y << level))
       halve_row(from.row(2 * y), from.row(2 * y + 1), span.begin >> level,
                 std::min(span.end >> level, to.width), to.row(y));
+}
+
+/// `make`(finer level, k, level k's memory), `noise_of`(level k, k).
+template <class T, class Make, class NoiseOf>
+void add_levels(ImageView<T> image, double noise, ImagePyramid<T>& pyramid, const Make& make,
+                const NoiseOf& noise_of) {
+  pyramid.levels[0] = image;
+  pyramid.noise[0] = noise;
+  pyramid.count = 1;
+  for (std::size_t k = 1; k < ImagePyramid<T>::kMostLevels; ++k) {
+    const ImageView<T> finer = pyramid.levels[k - 1];
+    if (std::min(finer.width, finer.height) < 2 * kSmallestLevel) break;
+    make(finer, static_cast<int>(k), pyramid.binned[k - 1]);
+    pyramid.levels[k] = pyramid.binned[k - 1].view();
+    pyramid.noise[k] = noise_of(pyramid.levels[k], static_cast<int>(k));
+    ++pyramid.count;
+  }
 }
 
 /// A place of the image in one level's pixels.
@@ -137,37 +155,22 @@ int ScaleLadder::level(int rung) { return rung <= 2 ? 0 : (rung - 1) / 2; }
 
 template <class T>
 void build_pyramid(ImageView<T> image, double noise, ImagePyramid<T>& pyramid) {
-  pyramid.levels[0] = image;
-  pyramid.noise[0] = noise;
-  pyramid.count = 1;
-  for (std::size_t k = 1; k < ImagePyramid<T>::kMostLevels; ++k) {
-    const ImageView<T> finer = pyramid.levels[k - 1];
-    if (std::min(finer.width, finer.height) < 2 * kSmallestLevel) break;
-    Image<T>& coarser = pyramid.binned[k - 1];
-    halve(finer, coarser);
-    pyramid.levels[k] = coarser.view();
-    // White noise falls by half from level to level; grain, texture and a codec's noise by less.
-    const double pixels = static_cast<double>(coarser.width) * coarser.height;
-    const int thinning = std::max(1, static_cast<int>(pixels / 16000));
-    pyramid.noise[k] = std::max(noise / (1 << k), estimate_noise(pyramid.levels[k], thinning).seen);
-    ++pyramid.count;
-  }
+  add_levels(
+      image, noise, pyramid, [](ImageView<T> finer, int, Image<T>& coarser) { halve(finer, coarser); },
+      [&](ImageView<T> level, int k) {
+        // White noise falls by half from level to level; grain, texture and a codec's noise by less.
+        const int thinning = std::max(1, static_cast<int>(1.0 * level.width * level.height / 16000));
+        return std::max(noise / (1 << k), estimate_noise(level, thinning).seen);
+      });
 }
 
 template <class T>
 void build_pyramid(ImageView<T> image, const LevelNoise& noise, const SearchWindows& windows,
                    ImagePyramid<T>& pyramid) {
-  pyramid.levels[0] = image;
-  pyramid.noise[0] = noise[0];
-  pyramid.count = 1;
-  for (std::size_t k = 1; k < ImagePyramid<T>::kMostLevels; ++k) {
-    const ImageView<T> finer = pyramid.levels[k - 1];
-    if (std::min(finer.width, finer.height) < 2 * kSmallestLevel) break;
-    halve(finer, windows, static_cast<int>(k), pyramid.binned[k - 1]);
-    pyramid.levels[k] = pyramid.binned[k - 1].view();
-    pyramid.noise[k] = noise[k];
-    ++pyramid.count;
-  }
+  add_levels(
+      image, noise[0], pyramid,
+      [&](ImageView<T> finer, int k, Image<T>& coarser) { halve(finer, windows, k, coarser); },
+      [&](ImageView<T>, int k) { return noise[static_cast<std::size_t>(k)]; });
 }
 
 template <class T>
@@ -213,8 +216,7 @@ double scale_of_line(ImagePyramid<T>& pyramid, KernelCache& kernels, std::span<c
 double grain_of_line(std::span<const StripePoint> points, double sigma, double noise,
                      std::vector<float>& scratch) {
   constexpr std::size_t kLeast = 24, kEnough = 300;
-  constexpr double kToSigma = 1.4826 / 2.449489743;  // of a normal; second differences have sqrt(6) sigma
-  constexpr double kClear = 1.5;                     // times the noise
+  constexpr double kClear = 1.5;  // times the noise
   const auto lag = static_cast<std::size_t>(std::lround(std::max(1.0, 2.5 * sigma)));
   if (points.size() < 2 * lag + kLeast) return 0;
   const std::size_t step = 1 + points.size() / kEnough;
@@ -227,9 +229,7 @@ double grain_of_line(std::span<const StripePoint> points, double sigma, double n
     strength += middle;
   }
   strength /= static_cast<double>(scratch.size());
-  const auto middle = scratch.begin() + static_cast<std::ptrdiff_t>(scratch.size() / 2);
-  std::nth_element(scratch.begin(), middle, scratch.end());
-  const double seen = kToSigma * double{*middle};
+  const double seen = kSecondDifferenceToSigma * double{upper_median(scratch)};
   return seen > kClear * noise ? std::sqrt(seen * seen - noise * noise) / strength : 0.0;
 }
 

@@ -10,6 +10,7 @@
 
 #include "core/error.h"
 #include "extraction/image/noise.h"
+#include "extraction/kernels/kernels_scan.h"
 
 namespace lightstripe {
 namespace {
@@ -26,10 +27,7 @@ struct LevelMedian {
 template <class T>
 int level_shift(ImageView<T> lit, ImageView<T> dark) {
   if constexpr (sizeof(T) == 1) return 0;
-  T largest = 0;
-  for (const ImageView<T>& image : {lit, dark})
-    for (int y = 0; y < image.height; ++y)
-      largest = std::max(largest, *std::max_element(image.row(y), image.row(y) + image.width));
+  const T largest = std::max(largest_pixel(lit), largest_pixel(dark));
   int shift = 0;
   while ((largest >> shift) >= kLevels) ++shift;
   return shift;
@@ -114,8 +112,13 @@ Ambient<T> ambient_of(ImageView<T> lit, ImageView<T> dark) {
   return ambient;
 }
 
+}  // namespace
+
+AmbientChange fit_ambient_change(ImageView8 lit, ImageView8 dark) { return fit_change(lit, dark, 0); }
+AmbientChange fit_ambient_change(ImageView16 lit, ImageView16 dark) { return ambient_of(lit, dark).change; }
+
 template <class T>
-LaserLight<T> subtract(const Image<T>& lit, const Image<T>& dark) {
+LaserLight<T> subtract_background(const Image<T>& lit, const Image<T>& dark) {
   constexpr int kMost = std::numeric_limits<T>::max();
   const Ambient<T> ambient = ambient_of(lit.view(), dark.view());
   LaserLight<T> light;
@@ -131,21 +134,11 @@ LaserLight<T> subtract(const Image<T>& lit, const Image<T>& dark) {
         static_cast<T>(std::clamp(static_cast<int>(std::lround(rest + ambient.dark_level)), 0, kMost));
     darker += rest < -ambient.clearly_darker ? 1U : 0U;
     std::uint8_t& place = light.image.where[i];
-    if (lit.pixels[i] >= kMost - 1 && place == LaserPlace::kSure) place = kClippedPlace;
+    if (lit.pixels[i] >= kMost - 1 && place == LaserPlace::kSure) place = LaserPlace::kClipped;
   }
   light.darker_share =
       static_cast<double>(darker) / static_cast<double>(std::max<std::size_t>(1, lit.pixels.size()));
   return light;
-}
-
-}  // namespace
-
-AmbientChange fit_ambient_change(ImageView8 lit, ImageView8 dark) { return fit_change(lit, dark, 0); }
-AmbientChange fit_ambient_change(ImageView16 lit, ImageView16 dark) { return ambient_of(lit, dark).change; }
-
-template <class T>
-LaserLight<T> subtract_background(const Image<T>& lit, const Image<T>& dark) {
-  return subtract(lit, dark);
 }
 
 template LaserLight<std::uint8_t> subtract_background(const Image8&, const Image8&);

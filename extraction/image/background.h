@@ -24,10 +24,6 @@ AmbientChange fit_ambient_change(ImageView16 lit, ImageView16 dark);
 /// that it passed for little noise and its peaks for light.
 inline constexpr int kDarkLevel = 12;
 
-/// In an image's `where`: the laser is surely here, and so strong that the pixel was clipped before anything
-/// was subtracted.
-inline constexpr std::uint8_t kClippedPlace = 4;  ///< after LaserPlace and kOtherLight (line_colour.h)
-
 template <class T>
 struct LaserLight {
   Image<T> image;  ///< kDarkLevel + lit - (gain * dark + offset); `where` is always known

@@ -11,6 +11,7 @@
 #include <limits>
 
 #include "core/image.h"
+#include "extraction/kernels/kernels_scan.h"
 
 namespace lightstripe {
 
@@ -21,10 +22,7 @@ template <class T>
 ImageView<T> inverted(ImageView<T> image, Image<T>& negative) {
   T largest = std::numeric_limits<T>::max();
   if constexpr (sizeof(T) > 1) {
-    T brightest = 0;
-    for (int y = 0; y < image.height; ++y)
-      brightest = std::max(brightest, *std::max_element(image.row(y), image.row(y) + image.width));
-    largest = static_cast<T>(std::bit_ceil(std::uint32_t{brightest} + 1) - 1);
+    largest = static_cast<T>(std::bit_ceil(std::uint32_t{largest_pixel(image)} + 1) - 1);
   }
   negative.width = image.width;
   negative.height = image.height;

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <cstdlib>
 
+#include "core/robust.h"
 #include "extraction/image/sampled_pieces.h"
 
 namespace lightstripe {
@@ -61,16 +62,14 @@ double median_difference(const DifferenceCounts& c) {
 template <class T>
 NoiseEstimate estimate_noise(ImageView<T> image, int thinning) {
   constexpr double kQuantisation = 0.28867513459481287;  // 1 / sqrt(12)
-  constexpr double kMedianToSigma =
-      1.4826 / 2.449489743;                  // of a normal; second differences have sqrt(6) sigma
-  constexpr double kHalfNormal = 0.6028;     // standard deviation of a halved normal of sigma 1
-  constexpr double kClippedNormal = 0.5838;  // the same with the other half at 0
+  constexpr double kHalfNormal = 0.6028;                 // standard deviation of a halved normal of sigma 1
+  constexpr double kClippedNormal = 0.5838;              // the same with the other half at 0
   DifferenceCounts c;
   for_sampled_pieces(image, thinning,
                      [&](const T* pixels, int length) { count_differences(pixels, length, c); });
   c.total -= c.clipped;
   if (c.total == 0) return {kQuantisation, kQuantisation};
-  const double sigma = median_difference(c) * kMedianToSigma;
+  const double sigma = median_difference(c) * kSecondDifferenceToSigma;
   const double full = c.clipped > c.total ? sigma / kHalfNormal : sigma;
   const double seen = c.clipped > c.total ? full * kClippedNormal : full;
   return {std::max(kQuantisation, seen), std::max(kQuantisation, full)};

@@ -66,10 +66,7 @@ Histogram count_levels(ImageView<T> image, int thinning, double largest) {
 
 template <class T>
 Histogram compute_histogram(ImageView<T> image, int thinning) {
-  double largest = 0;
-  for (int y = 0; y < image.height; ++y)
-    largest = std::max<double>(largest, largest_pixel(image.row(y), static_cast<std::size_t>(image.width)));
-  return count_levels(image, thinning, largest);
+  return count_levels(image, thinning, largest_pixel(image));
 }
 
 template <class T>

@@ -3,14 +3,26 @@
 // Passes over whole rows at memory speed: the brightest level and the places where a line may begin.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+
+#include "core/image.h"
 
 namespace lightstripe {
 
 /// The largest of `count` pixels, 0 for none.
 std::uint8_t largest_pixel(const std::uint8_t* pixels, std::size_t count);
 std::uint16_t largest_pixel(const std::uint16_t* pixels, std::size_t count);
+
+/// Of the whole image, 0 for none.
+template <class T>
+T largest_pixel(ImageView<T> image) {
+  T largest = 0;
+  for (int y = 0; y < image.height; ++y)
+    largest = std::max(largest, largest_pixel(image.row(y), static_cast<std::size_t>(image.width)));
+  return largest;
+}
 
 /// A row and its neighbours `reach` pixels above and below (outside the image: the row of zeros).
 template <class T>

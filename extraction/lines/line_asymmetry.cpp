@@ -6,6 +6,8 @@
 #include <cmath>
 #include <span>
 
+#include "core/robust.h"
+
 namespace lightstripe {
 namespace {
 
@@ -85,16 +87,14 @@ double shift_of(ImageView<T> image, std::span<const StripePoint> points, double 
 
 double median_magnitude(std::vector<double>& values) {
   for (double& v : values) v = std::abs(v);
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+  return upper_median(values);
 }
 
 /// 1-sigma scatter of the shifts from stretch to stretch, px.
 double scatter_of(const std::vector<double>& asides, std::vector<double>& scratch) {
   scratch.clear();
   for (std::size_t i = 1; i < asides.size(); ++i) scratch.push_back(asides[i] - asides[i - 1]);
-  return scratch.size() < 3 ? 0 : median_magnitude(scratch) * (1.4826 / 1.4142135624);
+  return scratch.size() < 3 ? 0 : median_magnitude(scratch) * (kMadToSigma / 1.4142135624);
 }
 
 /// What stands out of the scatter: of the median of five stretches, or of one together with a neighbour.
@@ -103,13 +103,12 @@ double clear_shift(const std::vector<double>& asides, std::size_t i, double scat
   const std::size_t first = i < 2 ? 0 : i - 2, last = std::min(asides.size(), i + 3);
   scratch.assign(asides.begin() + static_cast<std::ptrdiff_t>(first),
                  asides.begin() + static_cast<std::ptrdiff_t>(last));
-  const auto middle = scratch.begin() + static_cast<std::ptrdiff_t>(scratch.size() / 2);
-  std::nth_element(scratch.begin(), middle, scratch.end());
+  const double middle = upper_median(scratch);
   const double of_median = 2.5 * scatter / std::sqrt(static_cast<double>(last - first));
   const double before = i > 0 ? std::abs(asides[i - 1]) : 0.0;
   const double after = i + 1 < asides.size() ? std::abs(asides[i + 1]) : 0.0;
   const double pair = std::min(std::abs(asides[i]), std::max(before, after));
-  return std::max({0.0, std::abs(*middle) - of_median, pair - 4 * scatter});
+  return std::max({0.0, std::abs(middle) - of_median, pair - 4 * scatter});
 }
 
 template <class T>

@@ -104,7 +104,7 @@ void place_points(ImageView<T> image, const LineSet& lines, const LineRange& ran
     }
     if (2 * known > static_cast<double>(end - first) && expected > kClearRise * known &&
         rise < kAstray * expected && rise < kAstray * line.rise * known)
-      place[range.begin + i] = kOtherLight;
+      place[range.begin + i] = LaserPlace::kOtherLight;
   }
 }
 

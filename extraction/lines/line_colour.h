@@ -31,11 +31,9 @@ template <class T>
 LineColour colour_of_line(ImageView<T> image, const LineSet& lines, const LineRange& range, double width,
                           ColourWorkspace& workspace);
 
-/// A place where following went astray along an edge in other light: both the rise of the colour and its
-/// share fall far below those of the line.
-inline constexpr std::uint8_t kOtherLight = 3;
-
-/// Sets `place[i]` of each of the line's points i: LaserPlace as the image has it, or kOtherLight.
+/// Sets `place[i]` of each of the line's points i: LaserPlace as the image has it, or kOtherLight where
+/// following went astray along an edge in other light: both the rise of the colour and its share fall far
+/// below those of the line.
 template <class T>
 void place_points(ImageView<T> image, const LineSet& lines, const LineRange& range, double width,
                   ColourWorkspace& workspace, std::vector<std::uint8_t>& place);

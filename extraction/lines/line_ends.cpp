@@ -7,6 +7,8 @@
 #include <optional>
 #include <span>
 
+#include "core/robust.h"
+
 namespace lightstripe {
 namespace {
 
@@ -76,8 +78,7 @@ double median_strength(const EndView& end, std::size_t first, std::size_t count)
   const std::size_t step = 1 + count / 24;
   std::size_t used = 0;
   for (std::size_t i = first; i < first + count && used < 24; i += step) strengths[used++] = end[i].strength;
-  std::nth_element(strengths, strengths + used / 2, strengths + used);
-  return strengths[used / 2];
+  return upper_median(std::span(strengths, used));
 }
 
 /// The first point from the end on that is as strong as those further in; nothing where that takes more than

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/robust.h"
 #include "extraction/follow/bridge.h"
 #include "extraction/image/background.h"
 #include "extraction/kernels/width_rule.h"
@@ -53,7 +54,7 @@ bool has_contrast(const Trial& t, const LineRange& r, std::size_t i) {
   return t.contrast(r, i) >= 2.5 * kTopNoise * t.profile_noise;
 }
 bool has_colour(const Trial& t, std::size_t i) {
-  return t.w.colour[i] != LaserPlace::kNone && t.w.colour[i] != kOtherLight;
+  return t.w.colour[i] != LaserPlace::kNone && t.w.colour[i] != LaserPlace::kOtherLight;
 }
 /// Whether the stripe itself is there.
 bool is_lit(const Trial& t, const LineRange& r, std::size_t i) {
@@ -134,7 +135,7 @@ void find_bad_stretches(Trial& t, const LineSet& lines, const LineRange& r, std:
     if (stretches.empty() || i - stretches.back().last > (wide || stretches.back().spot ? least_run : 1))
       stretches.push_back({i, i, wide, 0});
     stretches.back().last = i;
-    stretches.back().other_light += t.w.colour[i] == kOtherLight ? 1U : 0U;
+    stretches.back().other_light += t.w.colour[i] == LaserPlace::kOtherLight ? 1U : 0U;
     stretches.back().spot = stretches.back().spot || wide;
   }
 }
@@ -191,9 +192,7 @@ double typical_intensity(Trial& t, const LineSet& lines, const LineRange& r) {
   for (std::size_t i = r.begin; i < r.end; i += sample_step(r))
     if ((lines.points[i].flags & kStripeBridged) == 0) t.w.scratch.push_back(lines.points[i].intensity);
   if (t.w.scratch.empty()) return 0;
-  const auto upper = t.w.scratch.begin() + static_cast<std::ptrdiff_t>(t.w.scratch.size() * 3 / 4);
-  std::nth_element(t.w.scratch.begin(), upper, t.w.scratch.end());
-  return *upper;
+  return value_at_rank(t.w.scratch, t.w.scratch.size() * 3 / 4);
 }
 
 /// Median over the line of the smaller over the larger drop from the ridge to both sides.
@@ -262,6 +261,12 @@ bool is_hot_column(const LineSet& lines, const LineRange& r, const LineFacts& fa
   return true;
 }
 
+/// Points that were clipped before their background was taken away.
+void flag_clipped(const Trial& t, const LineRange& r, LineSet& lines) {
+  for (std::size_t i = r.begin; i < r.end; ++i)
+    if (t.w.colour[i] == LaserPlace::kClipped) lines.points[i].flags |= kStripeSaturated;
+}
+
 }  // namespace
 
 void drop_lines(LineSet& lines, std::vector<LineFacts>& facts) {
@@ -274,16 +279,6 @@ void drop_lines(LineSet& lines, std::vector<LineFacts>& facts) {
   lines.lines.resize(kept);
   facts.resize(kept);
 }
-
-namespace {
-
-/// Points that were clipped before their background was taken away.
-void flag_clipped(const Trial& t, const LineRange& r, LineSet& lines) {
-  for (std::size_t i = r.begin; i < r.end; ++i)
-    if (t.w.colour[i] == kClippedPlace) lines.points[i].flags |= kStripeSaturated;
-}
-
-}  // namespace
 
 template <class T>
 void filter_lines(ImageView<T> image, const DerivativeKernels& kernels, double noise,

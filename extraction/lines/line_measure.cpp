@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/robust.h"
 #include "extraction/kernels/width_rule.h"
 #include "extraction/lines/cross_profile.h"
 
@@ -124,9 +125,7 @@ void measure_singly(ImageView<T> image, double sigma, double full_width, double 
 
 double median_of(std::vector<float>& values) {
   if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+  return upper_median(values);
 }
 
 template <class T>

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/robust.h"
 #include "extraction/follow/line_point.h"
 #include "extraction/lines/cross_profile.h"
 #include "extraction/lines/line_measure.h"
@@ -45,7 +46,6 @@ template <class T>
 double noise_on_ridge(ImageView<T> image, const LineSet& lines, const LineRange& range,
                       double background_noise, std::vector<float>& scratch) {
   constexpr std::size_t kLeast = 20, kEnough = 250;
-  constexpr double kToSigma = 1.4826 / 2.449489743;  // of a normal; second differences have sqrt(6) sigma
   const std::size_t step = 1 + range.size() / kEnough;
   scratch.clear();
   for (std::size_t i = range.begin + 1; i + 1 < range.end; i += step) {
@@ -57,7 +57,7 @@ double noise_on_ridge(ImageView<T> image, const LineSet& lines, const LineRange&
         ridge_grey(image, a, fall) - 2 * ridge_grey(image, b, fall) + ridge_grey(image, c, fall);
     scratch.push_back(static_cast<float>(std::abs(second)));
   }
-  return scratch.size() < kLeast ? background_noise : kToSigma * median_of(scratch);
+  return scratch.size() < kLeast ? background_noise : kSecondDifferenceToSigma * median_of(scratch);
 }
 
 namespace {

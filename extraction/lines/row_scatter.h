@@ -33,7 +33,6 @@ struct RowScatter {
   double grained_density() const;
 };
 
-/// Scratch memory.
 /// How much the rows of one line differ, as it is seen.
 struct RowDifferences {
   static constexpr std::size_t kLags = 6;
@@ -45,6 +44,7 @@ struct RowDifferences {
   double factor = 1;  ///< of the variance, for rows that cross the line obliquely
 };
 
+/// Scratch memory.
 struct RowScatterWorkspace {
   std::vector<float> offsets;  ///< px across the line, of each row; NaN between two stretches
   std::vector<float> squares;

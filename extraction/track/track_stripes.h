@@ -3,6 +3,8 @@
 // Extraction in a sequence: an earlier frame tells where to look.
 #pragma once
 
+#include <cstdint>
+
 #include "extraction/extract_stripes.h"
 #include "extraction/track/track_reference.h"
 #include "extraction/workspace.h"
@@ -12,6 +14,9 @@ namespace lightstripe {
 /// Frames of a sequence that have one reference: frame k is searched by what frame k - k % kTrackedFrames has
 /// left, so that the result depends on these two pictures only, and on no thread.
 inline constexpr int kTrackedFrames = 32;
+constexpr std::int64_t key_frame_of(std::int64_t frame) {
+  return frame - ((frame % kTrackedFrames) + kTrackedFrames) % kTrackedFrames;
+}
 
 /// As extract_stripes() where lines are looked for near those of `before` only, and near whatever a coarse
 /// look over the whole frame sees (every fourth row): what lies in these windows is found as in the full

@@ -14,6 +14,10 @@ namespace lightstripe {
 /// Levels of an image's `where`.
 struct LaserPlace {
   static constexpr std::uint8_t kNone = 0, kFaint = 1, kSure = 2;
+  /// Surely in other light: the colour rises far less than along the rest of a line.
+  static constexpr std::uint8_t kOtherLight = 3;
+  /// Surely the laser, and clipped before a background was taken away.
+  static constexpr std::uint8_t kClipped = 4;
 };
 /// Level of an image's `rise` where the laser's own channel is clipped, so that its colour tells nothing.
 inline constexpr std::uint8_t kClippedRise = 255;

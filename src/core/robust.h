@@ -18,6 +18,10 @@ namespace lightstripe {
 /// Times the median absolute deviation: the sigma of normal noise.
 inline constexpr double kMadToSigma = 1.4826;
 
+/// Times the median absolute second difference a - 2 b + c of independent values, whose sigma is sqrt(6)
+/// times theirs: the sigma of normal noise.
+inline constexpr double kSecondDifferenceToSigma = kMadToSigma / 2.449489743;
+
 /// Tukey's biweight is 0 beyond this many sigmas; 95 % efficient for normal noise (Huber and Ronchetti 2009).
 inline constexpr double kTukeyLimit = 4.685;
 
@@ -28,6 +32,12 @@ auto value_at_rank(Values&& values, std::size_t rank) {
   const auto place = std::begin(values) + static_cast<std::ptrdiff_t>(rank);
   std::nth_element(std::begin(values), place, std::end(values));
   return *place;
+}
+
+/// The value with the rank share * (n - 1), rounded down. Reorders the values.
+template <std::ranges::random_access_range Values>
+auto quantile(Values&& values, double share) {
+  return value_at_rank(values, static_cast<std::size_t>(share * static_cast<double>(std::size(values) - 1)));
 }
 
 /// The median; of an even number the upper one of the two in the middle. Reorders the values.

@@ -34,11 +34,6 @@ std::size_t plane_of(Channel channel) {
   return name.starts_with("blue") ? 0 : name.starts_with("green") ? 1 : 2;
 }
 
-bool is_excess(Channel channel) {
-  return channel == Channel::kRedExcess || channel == Channel::kGreenExcess ||
-         channel == Channel::kBlueExcess;
-}
-
 bool is_laser(Channel channel) { return channel >= Channel::kRedLaser && channel <= Channel::kBlueTextured; }
 
 bool is_clipped(Channel channel) {

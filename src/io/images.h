@@ -66,6 +66,10 @@ constexpr std::array<EnumName<Channel>, 17> enum_names(Channel) {
            {Channel::kBlueTextured, "blue-textured"}}};
 }
 
+constexpr bool is_excess(Channel channel) {
+  return channel >= Channel::kRedExcess && channel <= Channel::kBlueExcess;
+}
+
 /// Decodes a picture. An Error for a file that is missing, empty, truncated, no image, or larger than 2^28
 /// pixels (looked up in the header before anything is allocated). 16-bit pictures are scaled to 8 bits: white
 /// is what the header says (PNM), else the largest value of the fewest of 10, 12, 14 or 16 bits that hold

@@ -20,8 +20,4 @@ void guard_outputs(const std::vector<std::filesystem::path>& inputs,
 std::vector<std::filesystem::path> files_of(const Session& session);
 std::vector<std::filesystem::path> files_of(const Scan& scan);
 
-/// An Error where a text cannot name a sensor, since files are named after it: empty, with a slash or a
-/// control character, or beginning with a dot. `key` stands in the message.
-void check_sensor_name(const std::string& name, const std::string& key);
-
 }  // namespace lightstripe

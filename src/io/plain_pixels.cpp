@@ -188,7 +188,7 @@ std::optional<ImageView8> find_plain_pixels(std::string_view bytes) {
 
 std::optional<Picture> map_picture(const std::filesystem::path& path, Channel channel) {
   // An excess of a grey picture is refused by the way that decodes.
-  if (channel >= Channel::kRedExcess && channel <= Channel::kBlueExcess) return std::nullopt;
+  if (is_excess(channel)) return std::nullopt;
   auto file = MappedFile::open(path);
   if (!file) return std::nullopt;
   const auto pixels = find_plain_pixels(file->bytes());

@@ -7,8 +7,8 @@
 #include <set>
 
 #include "core/error.h"
-#include "io/output_guard.h"
 #include "io/rig_fields.h"
+#include "io/sensor_name.h"
 #include "io/yaml_binding.h"
 
 namespace lightstripe {

@@ -7,7 +7,7 @@
 
 #include "core/error.h"
 #include "io/backgrounds_field.h"
-#include "io/output_guard.h"
+#include "io/sensor_name.h"
 #include "io/session_target.h"
 
 namespace lightstripe {

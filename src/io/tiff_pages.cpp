@@ -64,10 +64,10 @@ class TiffPages : public FrameSource {
   GreyImage read(std::int64_t index) const override { return read_as(index, channel_, nullptr); }
   Picture look(std::int64_t index) const override {
     LIGHTSTRIPE_CHECK(index >= 0 && index < size(), "a frame of the sequence");
-    const bool excess = channel_ >= Channel::kRedExcess && channel_ <= Channel::kBlueExcess;
-    const auto pixels = mapped_ && !excess ? find_tiff_pixels(mapped_->bytes(),
-                                                              layout_.pages[static_cast<std::size_t>(index)])
-                                           : std::nullopt;
+    const auto pixels =
+        mapped_ && !is_excess(channel_)
+            ? find_tiff_pixels(mapped_->bytes(), layout_.pages[static_cast<std::size_t>(index)])
+            : std::nullopt;
     return pixels ? Picture(*pixels, mapped_) : Picture(read(index));
   }
 

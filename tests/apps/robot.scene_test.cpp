@@ -81,13 +81,7 @@ TEST(RigOnARobot, ItsScanLiesInTheRobotsBase) {
   // A plate in the base's frame, seen from six places of the tool.
   const Rigid3 base_from_plate = kBaseFromBoard * Rigid3{Eigen::Quaterniond::Identity(), {20, 10, -40}};
   const Target plate{TargetType::kCheckerboard, 3, 3, 30, 30};
-  const testing::BoardLook white{.dark = 20,
-                                 .light = 20,
-                                 .background = 10,
-                                 .margin_mm = 0,
-                                 .laser_peak = 170,
-                                 .laser_sigma_mm = 0.5,
-                                 .laser_dark_albedo = 1};
+  const testing::BoardLook white = testing::lit_plate(20, 170);
   table = "frame,qw,qx,qy,qz,x,y,z\n";
   for (int i = 0; i < 6; ++i) {
     const Rigid3 first_from_plate = testing::board_pose(plate, {0, 12.0 * (i - 2.5), 495 + 3.0 * i},

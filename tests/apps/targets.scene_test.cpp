@@ -142,13 +142,7 @@ class SeveralLines : public ::testing::Test {
   /// A white plate of that height and width (mm), lit by all lasers; frame 0 of the scan.
   void picture_of_plate(const Rigid3& pose, double width_mm, double height_mm) {
     const Target plate{TargetType::kCheckerboard, 3, 3, width_mm / 4, height_mm / 4};
-    const BoardLook white{.dark = 20,
-                          .light = 20,
-                          .background = 10,
-                          .margin_mm = 0,
-                          .laser_peak = 170,
-                          .laser_sigma_mm = 0.5,
-                          .laser_dark_albedo = 1};
+    const testing::BoardLook white = testing::lit_plate(20, 170);
     const Rigid3 middle{pose.rotation, pose * Vector3d(-width_mm / 4, -height_mm / 4, 0)};
     write_image(folder_ / "scan/0.png",
                 render_board(session_.camera, plate, middle, white, 77, session_.lasers));
@@ -237,13 +231,7 @@ class ThreeLines : public SeveralLines {
 
   Image8 plate(double x, double z, double width_mm, double height_mm) const {
     const Target target{TargetType::kCheckerboard, 3, 3, width_mm / 4, height_mm / 4};
-    const BoardLook white{.dark = 10,
-                          .light = 10,
-                          .background = 10,
-                          .margin_mm = 0,
-                          .laser_peak = 180,
-                          .laser_sigma_mm = 0.5,
-                          .laser_dark_albedo = 1};
+    const testing::BoardLook white = testing::lit_plate(10, 180);
     return render_board(session_.camera, target,
                         {Eigen::Quaterniond::Identity(), {x - width_mm / 4, -height_mm / 4, z}}, white, 5,
                         session_.lasers);

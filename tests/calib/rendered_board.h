@@ -31,6 +31,17 @@ struct BoardLook {
   bool first_square_dark = true;   ///< the square between corners 0, 1 and the next row
 };
 
+/// A white plate in a dark place, whose laser line a scan sees.
+inline BoardLook lit_plate(double grey, double laser_peak) {
+  return {.dark = grey,
+          .light = grey,
+          .background = 10,
+          .margin_mm = 0,
+          .laser_peak = laser_peak,
+          .laser_sigma_mm = 0.5,
+          .laser_dark_albedo = 1};
+}
+
 namespace detail {
 
 /// Albedo class at a point of the board: 0 off the board, 1 dark square, 2 light square or rim.

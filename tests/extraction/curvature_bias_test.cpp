@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "extraction/extract_stripes.h"
-#include "real_light.h"
+#include "simulate/real_stripe.h"
 #include "stripe_scenes.h"
 
 namespace lightstripe {
@@ -72,10 +72,10 @@ TEST(CurvatureBias, StraightNoisyLinesAreHardlyMoved) {
 
 TEST(CurvatureBias, OfClippedBarsIsCorrectedLessExactlyAndSigmaSaysSo) {
   for (const double exposure : {1.5, 6.0, 15.0, 60.0}) {
-    scenes::RealStripe stripe;
+    RealStripe stripe;
     stripe.sigma = 4;
     stripe.exposure = exposure;
-    scenes::RealScore score;
+    RealScore score;
     for (std::uint64_t seed = 100; seed < 104; ++seed)
       add_to(score, stripe, extract_stripes(picture_of(stripe, seed).view()).stripes);
     EXPECT_LT(score.rms_surprise(), 2.0) << exposure;

@@ -6,13 +6,13 @@
 #include <gtest/gtest.h>
 
 #include "extraction/extract_stripes.h"
-#include "real_light.h"
+#include "simulate/real_stripe.h"
 
 namespace lightstripe {
 namespace {
 
-scenes::RealScore score_of(const scenes::RealStripe& stripe) {
-  scenes::RealScore score;
+RealScore score_of(const RealStripe& stripe) {
+  RealScore score;
   for (std::uint64_t seed = 1; seed <= 4; ++seed)
     add_to(score, stripe, extract_stripes(picture_of(stripe, seed).view()).stripes);
   return score;
@@ -20,9 +20,9 @@ scenes::RealScore score_of(const scenes::RealStripe& stripe) {
 
 TEST(LineAsymmetry, GlowIsNotHiddenInSigma) {
   for (const double glow : {0.15, 0.5}) {
-    scenes::RealStripe stripe;
+    RealStripe stripe;
     stripe.glow = glow;
-    const scenes::RealScore score = score_of(stripe);
+    const RealScore score = score_of(stripe);
     EXPECT_GT(score.completeness(), 0.99) << glow;
     EXPECT_GT(score.rms(), 0.05) << glow;  // nobody can take the bias back
     EXPECT_LT(score.rms_surprise(), 2) << glow;
@@ -30,7 +30,7 @@ TEST(LineAsymmetry, GlowIsNotHiddenInSigma) {
 }
 
 TEST(LineAsymmetry, OfEvenStripesNothingIsAdded) {
-  const scenes::RealScore score = score_of({});
+  const RealScore score = score_of({});
   EXPECT_LT(score.sigma(), 0.02);
   EXPECT_NEAR(score.rms_surprise(), 1, 0.35);
 }

@@ -74,7 +74,7 @@ TEST(LineColour, TellsWhereFollowingWentAlongAnEdgeInOtherLight) {
   std::vector<std::uint8_t> place(lines.points.size());
   place_points(image.view(), lines, lines.lines[0], 3.46 * kSigma, workspace, place);
   for (std::size_t y = 0; y < 116; ++y) EXPECT_EQ(place[y], LaserPlace::kSure) << y;
-  for (std::size_t y = 124; y < place.size(); ++y) EXPECT_EQ(place[y], kOtherLight) << y;
+  for (std::size_t y = 124; y < place.size(); ++y) EXPECT_EQ(place[y], LaserPlace::kOtherLight) << y;
 }
 
 TEST(LineColour, ALineInOtherLightIsDroppedAndAnAstrayEndIsCutOff) {

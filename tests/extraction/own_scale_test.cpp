@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "extraction/extract_stripes.h"
-#include "real_light.h"
+#include "simulate/real_stripe.h"
 #include "stripe_scenes.h"
 
 namespace lightstripe {
@@ -120,14 +120,14 @@ TEST(OwnScale, ABroadKernelDoesNotJoinPiecesThatLieBesideEachOther) {
 }
 
 TEST(OwnScale, InSpeckleTheKernelIsBroaderAndHoldsTheLineTogether) {
-  scenes::RealStripe stripe;
+  RealStripe stripe;
   stripe.speckle = {0.4, 1.2};
   const Image8 image = picture_of(stripe, 7);
   ExtractionOptions as_wide;
   as_wide.sigma = stripe.sigma;
   const auto own = extract_stripes(image.view()), fixed = extract_stripes(image.view(), as_wide);
   EXPECT_GT(own.sigma, 1.4 * stripe.sigma);
-  scenes::RealScore by_own, by_fixed;
+  RealScore by_own, by_fixed;
   add_to(by_own, stripe, own.stripes);
   add_to(by_fixed, stripe, fixed.stripes);
   EXPECT_GT(by_own.completeness(), 0.98);

@@ -7,13 +7,13 @@
 #include <cmath>
 
 #include "extraction/extract_stripes.h"
-#include "real_light.h"
+#include "simulate/real_stripe.h"
 
 namespace lightstripe {
 namespace {
 
-scenes::RealStripe straight(double contrast, double grain) {
-  scenes::RealStripe stripe;
+RealStripe straight(double contrast, double grain) {
+  RealStripe stripe;
   stripe.centre = [](double) { return 80.3; };
   stripe.height = 2000;
   stripe.speckle = {contrast, grain};
@@ -22,8 +22,8 @@ scenes::RealStripe straight(double contrast, double grain) {
 }
 
 /// Of the line that the kernels follow.
-RowScatter measured(const scenes::RealStripe& stripe) {
-  const Image8 picture = scenes::picture_of(stripe, 5);
+RowScatter measured(const RealStripe& stripe) {
+  const Image8 picture = picture_of(stripe, 5);
   ExtractionOptions options;
   options.sigma = stripe.sigma;
   const auto result = extract_stripes(picture.view(), options);
@@ -35,7 +35,7 @@ RowScatter measured(const scenes::RealStripe& stripe) {
 }
 
 TEST(RowScatter, WhiteNoiseIsFoundWhiteAndOfTheClosedFormulasSize) {
-  scenes::RealStripe stripe = straight(0, 1);
+  RealStripe stripe = straight(0, 1);
   stripe.read_noise = 6;
   const RowScatter scatter = measured(stripe);
   EXPECT_EQ(scatter.grain_variance, 0);
@@ -52,14 +52,14 @@ TEST(RowScatter, SpeckleShowsItsGrain) {
 }
 
 TEST(RowScatter, ABentLineWithoutNoiseHasNone) {
-  scenes::RealStripe stripe = straight(0, 1);
+  RealStripe stripe = straight(0, 1);
   stripe.centre = [](double y) { return 80 + 30 * std::sin(y / 90); };
   stripe.read_noise = 0.3;
   EXPECT_LT(std::sqrt(measured(stripe).of_point(2)), 0.01);
 }
 
 TEST(RowScatter, AFewRowsSayNothing) {
-  scenes::RealStripe stripe = straight(0.3, 1);
+  RealStripe stripe = straight(0.3, 1);
   stripe.height = 24;
   EXPECT_EQ(measured(stripe).rows, 0);
   EXPECT_EQ(measured(stripe).of_point(2), 0);
