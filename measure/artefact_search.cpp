@@ -92,13 +92,13 @@ Points3 without_ground(const Points3& points, const ArtefactSpec& spec) {
   ParallelFaces ground;
   std::ptrdiff_t most = 0;
   for (int trial = 0; trial < kGroundTrials; ++trial) {
-    const std::array<Vector3d, 3> p{points[any_index(random, points.size())],
-                                    points[any_index(random, points.size())],
-                                    points[any_index(random, points.size())]};
+    const std::array<Vector3d, 3> three{points[any_index(random, points.size())],
+                                        points[any_index(random, points.size())],
+                                        points[any_index(random, points.size())]};
     ParallelFaces faces;
-    faces.normal = face_normal(p, spec.section);
+    faces.normal = face_normal(three, spec.section);
     if (!faces.normal.allFinite()) continue;
-    faces.offset[0] = faces.normal.dot(p[0]);
+    faces.offset[0] = faces.normal.dot(three[0]);
     const auto on_it = std::count_if(points.begin(), points.end(), [&](const Vector3d& p) {
       return std::abs(faces.distance(p, 0)) < width;
     });

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "io/sensor_name.h"
 #include "temp_folder.h"
 
 namespace lightstripe {
