@@ -11,6 +11,7 @@
 
 #include "core/fields.h"
 #include "measure/coarse_pose.h"
+#include "measure/correlation.h"
 
 namespace lightstripe {
 
@@ -63,6 +64,7 @@ struct Registration {
   double correlated_points =
       1;  ///< neighbouring points that share one error; the mean of n points has sigma = rms * sqrt(this / n)
   double stretch_error_mm = 0;  ///< what the place of a short stretch of surface errs by, beyond scatter
+  ErrorAlong error;             ///< of its points; wheels only
   RegistrationView view = RegistrationView::kNone;
   std::string reason = "not registered";  ///< empty: usable
 
