@@ -206,7 +206,25 @@ Place strip_height(const PlacedSection& placed, double u, double half_width_mm) 
   return {"", median(heights), sigma_of_sum(error, places, shares), u};
 }
 
-/// How far the tread lies below its highest point on the field side, by medians of strips.
+/// The summit or the bottom near a strip that is the highest or lowest: of a parabola over its surroundings.
+Place extremum_near(const PlacedSection& placed, const Place& strip) {
+  constexpr double kHalfWidthMm = 4, kFarthestMm = 2;
+  const double u = strip.per_turn;
+  std::vector<Sample1> samples;
+  for (std::size_t i = 0; i < placed.points.size(); ++i) {
+    const Vector2d arm = placed.points[i] - Vector2d(u, strip.value);
+    if (std::abs(arm.x()) < kHalfWidthMm && std::abs(arm.y()) < kHalfWidthMm)
+      samples.push_back({arm.x(), arm.y(), placed.section[i].weight});
+  }
+  const auto fit = fit_polynomial(samples, 2, kMinScaleMm);
+  if (!fit || fit->curvature == 0) return strip;
+  const double at = -fit->slope / fit->curvature;
+  if (std::abs(at) > kFarthestMm) return strip;
+  return {"", strip.value + fit->value + fit->slope * at / 2,
+          sigma_at(*fit, samples, 2, at, placed.registration.error), u + at};
+}
+
+/// How far the tread lies below its highest point on the field side, which medians of strips find.
 Estimate hollow_of(const PlacedSection& placed) {
   constexpr double kFirstU = -20, kFieldU = 15, kLastU = 50, kSeenU = 36, kStripMm = 2;
   std::vector<Place> strips;  // which move by their u where the section is turned
@@ -220,7 +238,8 @@ Estimate hollow_of(const PlacedSection& placed) {
   const Place* low = high;
   for (const Place& strip : strips)
     if (strip.per_turn < high->per_turn && strip.value < low->value) low = &strip;
-  return difference(*high, *low, placed.registration);
+  if (low == high) return difference(*high, *low, placed.registration);
+  return difference(extremum_near(placed, *high), extremum_near(placed, *low), placed.registration);
 }
 
 Estimate rim_width(const PlacedSection& placed, const Place& back) {
