@@ -69,6 +69,14 @@ double best_factor(const std::vector<Vector2d>& points, const std::vector<double
   return best;
 }
 
+/// What the noise looks like to a curve that does not follow single points: neighbours that share their error
+/// weigh less, and the criterion takes the noise for so much larger.
+double noise_of_stretches(double sigma, double correlation_mm, const std::vector<double>& arc) {
+  if (correlation_mm <= 0) return sigma;
+  const double kept = std::exp(-arc.back() / static_cast<double>(arc.size() - 1) / correlation_mm);
+  return sigma * std::sqrt((1 + kept) / (1 - kept));
+}
+
 /// How stiff the spline may be at each point, for a factor: 1 over the mean square of the curve's third
 /// derivative within some mm.
 std::vector<double> stiffness(const std::vector<Vector2d>& points, const std::vector<double>& arc) {
@@ -176,7 +184,8 @@ RunningSurface RunningSurface::measured(const std::vector<Vector2d>& raw, const 
   for (int round = 0; round < 2; ++round) {
     out.arc_mm_ = arc_lengths(out.curve_);
     const std::vector<double> shape = stiffness(points, out.arc_mm_);
-    out.factor_ = best_factor(points, out.arc_mm_, shape, sigma, kSoftest, kStiffest);
+    const double noise_of_curve = noise_of_stretches(sigma, options.correlation_mm, out.arc_mm_);
+    out.factor_ = best_factor(points, out.arc_mm_, shape, noise_of_curve, kSoftest, kStiffest);
     strengths = scaled(shape, out.factor_);
     out.curve_ = smoothed(points, SmoothingSpline(out.arc_mm_, strengths));
   }
@@ -205,7 +214,8 @@ HeightTable RunningSurface::redrawn(Random& random) const {
   }
   const std::vector<double> shape = stiffness(points, arc_mm_);
   const double factor =
-      best_factor(points, arc_mm_, shape, sigma_mm_, factor_ / kAbout, std::min(kStiffest, factor_ * kAbout));
+      best_factor(points, arc_mm_, shape, noise_of_stretches(sigma_mm_, correlation_mm_, arc_mm_),
+                  factor_ / kAbout, std::min(kStiffest, factor_ * kAbout));
   const std::vector<Vector2d> curve = smoothed(points, SmoothingSpline(arc_mm_, scaled(shape, factor)));
   HeightTable drawn = tabulate(curve, ascending(curve), table_.step_mm);
   return drawn.height_mm.size() < 8 ? table_ : drawn;
