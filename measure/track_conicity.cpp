@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "core/robust.h"
 
@@ -19,6 +20,7 @@ struct PolarPoint {
   double angle, radius;
   Vector2d place;  ///< y, z
   double weight;
+  int sensor;
 };
 
 std::vector<PolarPoint> head_points(const PlacedSection& rail, const TrackPlane& track, TrackSide side,
@@ -37,7 +39,8 @@ std::vector<PolarPoint> head_points(const PlacedSection& rail, const TrackPlane&
       continue;
     const Vector2d arm = place - inside;
     const double sigma = std::max(point.sigma_mm, kLeastSigmaMm);
-    points.push_back({-std::atan2(arm.y(), arm.x()), arm.norm(), place, point.weight / (sigma * sigma)});
+    points.push_back(
+        {-std::atan2(arm.y(), arm.x()), arm.norm(), place, point.weight / (sigma * sigma), point.sensor});
   }
   std::sort(points.begin(), points.end(),
             [](const PolarPoint& a, const PolarPoint& b) { return a.angle < b.angle; });
@@ -64,34 +67,34 @@ void drop_strays(std::vector<PolarPoint>& points) {
 
 /// Means of runs not longer than kRailPointMm: what one sensor sees at a glance counts little where another
 /// looks straight at it.
-std::vector<Vector2d> means_of_runs(const std::vector<PolarPoint>& points) {
-  std::vector<Vector2d> means;
+RailHead means_of_runs(const std::vector<PolarPoint>& points) {
+  RailHead head;
   Vector2d sum = Vector2d::Zero();
-  double weight = 0, first = 0;
+  double weight = 0, first = 0, shares = 0;
+  std::map<int, double> of_sensor;
   const auto close = [&] {
-    if (weight > 0) means.push_back(sum / weight);
-    sum = Vector2d::Zero(), weight = 0;
+    if (weight <= 0) return;
+    head.points.push_back(sum / weight);
+    for (const auto& [sensor, part] : of_sensor) shares += part * part / (weight * weight);
+    sum = Vector2d::Zero(), weight = 0, of_sensor.clear();
   };
   for (const PolarPoint& point : points) {
     if (weight > 0 && (point.angle - first) * point.radius > kRailPointMm) close();
     if (weight == 0) first = point.angle;
-    sum += point.weight * point.place, weight += point.weight;
+    sum += point.weight * point.place, weight += point.weight, of_sensor[point.sensor] += point.weight;
   }
   close();
-  return means;
+  if (!head.points.empty()) head.variance_share = shares / static_cast<double>(head.points.size());
+  return head;
 }
 
-/// The registration has seen how the points scatter about parts that do not wear, and over how many of them
-/// an error is shared: neighbours on a stripe are no independent measurements.
+/// The registration has seen how the points scatter about parts that do not wear, and over what length
+/// they share their errors: neighbours on a stripe are no independent measurements.
 RollingProfile rolling_rail(const RailHead& head, const Registration& registration, const char* name) {
   constexpr double kLongestMm = 4;
-  double length = 0;
-  for (std::size_t i = 1; i < head.points.size(); ++i) length += (head.points[i] - head.points[i - 1]).norm();
-  const double spacing = length / static_cast<double>(head.points.size() - 1);
   SmoothingOptions smoothing;
-  if (registration.rms_mm > 0) smoothing.sigma_mm = registration.rms_mm;
-  if (registration.correlated_points > 1)
-    smoothing.correlation_mm = std::min(kLongestMm, registration.correlated_points * spacing / 2);
+  if (registration.rms_mm > 0) smoothing.sigma_mm = registration.rms_mm * std::sqrt(head.variance_share);
+  smoothing.correlation_mm = std::min(kLongestMm, registration.correlation_mm);
   return {name, RunningSurface::measured(head.points, smoothing), 0, 0};
 }
 
@@ -108,7 +111,7 @@ RailHead rail_head_of(const PlacedSection& rail, const TrackPlane& track, TrackS
   constexpr double kWidestHoleMm = 5, kRolledMm = 50;
   std::vector<PolarPoint> points = head_points(rail, track, side, depth_mm);
   drop_strays(points);
-  RailHead head{"", means_of_runs(points)};
+  RailHead head = means_of_runs(points);
   if (head.points.size() < kFewest) head.reason = "has too few points where wheels roll";
   for (std::size_t i = 1; i < head.points.size(); ++i)
     if (head.points[i - 1].x() < kRolledMm && (head.points[i] - head.points[i - 1]).norm() > kWidestHoleMm)

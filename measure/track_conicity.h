@@ -23,13 +23,16 @@ struct ReferenceWheelset {
 struct RailHead {
   std::string reason;  ///< empty: known
   std::vector<Eigen::Vector2d> points;
+  /// Of the points' variance that of one sensor's points counts: two sensors that see the same place err on
+  /// their own.
+  double variance_share = 1;
 };
 
 /// Means of the points over kRailPointMm each, down to the gauge point's depth on both sides; single points
 /// that lie off their neighbours do not count. Unknown where fewer than thirty are left or a hole of more
 /// than 5 mm lies where wheels roll.
 RailHead rail_head_of(const PlacedSection& rail, const TrackPlane& track, TrackSide side, double depth_mm);
-inline constexpr double kRailPointMm = 0.2;
+inline constexpr double kRailPointMm = 0.5;
 
 /// Not usable, with the reason, where gauge or a head is not known.
 Conicity conicity_of_track(const PlacedSection& left, const PlacedSection& right, const TrackPlane& track,
