@@ -69,6 +69,7 @@ double correlation_length_mm(const Section& section, const std::vector<FitPoint>
   double before = 1;
   for (std::size_t lag = 1; spacing && lag <= kMostLags; ++lag) {
     const double here = neighbours.correlation(lag).value_or(0);
+    if (lag == 1 && here <= kFallen) return here > 0 ? -*spacing / std::log(here) : 0;
     if (here <= kFallen)
       return *spacing * (static_cast<double>(lag - 1) + (before - kFallen) / (before - here));
     before = here;

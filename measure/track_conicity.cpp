@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <span>
 
 #include "core/robust.h"
 
@@ -47,41 +48,75 @@ std::vector<PolarPoint> head_points(const PlacedSection& rail, const TrackPlane&
   return points;
 }
 
-/// Leaves out what lies farther off the median of its neighbours than they scatter.
+/// Signed distance of the middle one of `window` from a line along them, and how far they scatter about it.
+struct LocalLine {
+  double off = 0, scatter = 0;
+};
+LocalLine line_through(std::span<const PolarPoint> window, const PolarPoint& middle) {
+  const std::size_t third = window.size() / 3;
+  const auto median_of = [](std::span<const PolarPoint> part, auto member) {
+    std::vector<double> values;
+    for (const PolarPoint& point : part) values.push_back(point.*member);
+    return upper_median(values);
+  };
+  const auto first = window.first(third), last = window.last(third);
+  const double angle = median_of(last, &PolarPoint::angle) - median_of(first, &PolarPoint::angle);
+  const double rise = median_of(last, &PolarPoint::radius) - median_of(first, &PolarPoint::radius);
+  const double slope = angle > 0 ? rise / angle : 0;
+  std::vector<double> residuals;
+  for (const PolarPoint& point : window) residuals.push_back(point.radius - slope * point.angle);
+  const double level = upper_median(residuals);
+  for (double& residual : residuals) residual = std::abs(residual - level);
+  return {middle.radius - slope * middle.angle - level, upper_median(residuals)};
+}
+
+/// Leaves out what lies farther off its neighbours than they scatter.
 void drop_strays(std::vector<PolarPoint>& points) {
-  constexpr std::size_t kHalf = 7;
-  constexpr double kSpreads = 6, kLeastMm = 0.15;
-  if (points.size() < 2 * kHalf + 1) return;
+  constexpr std::size_t kWindow = 15;
+  constexpr double kSpreads = 6, kLeastMm = 0.1;
+  if (points.size() < kWindow) return;
   std::vector<PolarPoint> kept;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const std::size_t from = std::min(i > kHalf ? i - kHalf : 0, points.size() - 2 * kHalf - 1);
-    std::vector<double> radii, off;
-    for (std::size_t k = from; k <= from + 2 * kHalf; ++k) radii.push_back(points[k].radius);
-    const double middle = upper_median(radii);
-    for (std::size_t k = from; k <= from + 2 * kHalf; ++k) off.push_back(std::abs(points[k].radius - middle));
-    if (std::abs(points[i].radius - middle) <= std::max(kLeastMm, kSpreads * upper_median(off)))
-      kept.push_back(points[i]);
+    const std::size_t from = std::min(i > kWindow / 2 ? i - kWindow / 2 : 0, points.size() - kWindow);
+    const LocalLine line = line_through(std::span(points).subspan(from, kWindow), points[i]);
+    if (std::abs(line.off) <= std::max(kLeastMm, kSpreads * line.scatter)) kept.push_back(points[i]);
   }
   points = std::move(kept);
 }
 
+/// Variance of the mean of `count` points of one sensor on a run over that of a single one, the points'
+/// correlation being exp(-distance / correlation_mm).
+double variance_of_mean(int count, double correlation_mm) {
+  double sum = 1;
+  for (int k = 1; k < count && correlation_mm > 0; ++k)
+    sum += 2 * (1 - static_cast<double>(k) / count) * std::exp(-k * kRailPointMm / count / correlation_mm);
+  return sum / count;
+}
+
 /// Means of runs not longer than kRailPointMm: what one sensor sees at a glance counts little where another
 /// looks straight at it.
-RailHead means_of_runs(const std::vector<PolarPoint>& points) {
+RailHead means_of_runs(const std::vector<PolarPoint>& points, double correlation_mm) {
   RailHead head;
   Vector2d sum = Vector2d::Zero();
   double weight = 0, first = 0, shares = 0;
-  std::map<int, double> of_sensor;
+  struct Part {
+    double weight = 0;
+    int count = 0;
+  };
+  std::map<int, Part> of_sensor;
   const auto close = [&] {
     if (weight <= 0) return;
     head.points.push_back(sum / weight);
-    for (const auto& [sensor, part] : of_sensor) shares += part * part / (weight * weight);
+    for (const auto& [sensor, part] : of_sensor)
+      shares += std::pow(part.weight / weight, 2) * variance_of_mean(part.count, correlation_mm);
     sum = Vector2d::Zero(), weight = 0, of_sensor.clear();
   };
   for (const PolarPoint& point : points) {
     if (weight > 0 && (point.angle - first) * point.radius > kRailPointMm) close();
     if (weight == 0) first = point.angle;
-    sum += point.weight * point.place, weight += point.weight, of_sensor[point.sensor] += point.weight;
+    sum += point.weight * point.place, weight += point.weight;
+    Part& part = of_sensor[point.sensor];
+    part.weight += point.weight, ++part.count;
   }
   close();
   if (!head.points.empty()) head.variance_share = shares / static_cast<double>(head.points.size());
@@ -111,7 +146,7 @@ RailHead rail_head_of(const PlacedSection& rail, const TrackPlane& track, TrackS
   constexpr double kWidestHoleMm = 5, kRolledMm = 50;
   std::vector<PolarPoint> points = head_points(rail, track, side, depth_mm);
   drop_strays(points);
-  RailHead head = means_of_runs(points);
+  RailHead head = means_of_runs(points, rail.registration.correlation_mm);
   if (head.points.size() < kFewest) head.reason = "has too few points where wheels roll";
   for (std::size_t i = 1; i < head.points.size(); ++i)
     if (head.points[i - 1].x() < kRolledMm && (head.points[i] - head.points[i - 1]).norm() > kWidestHoleMm)

@@ -23,8 +23,8 @@ struct ReferenceWheelset {
 struct RailHead {
   std::string reason;  ///< empty: known
   std::vector<Eigen::Vector2d> points;
-  /// Of the points' variance that of one sensor's points counts: two sensors that see the same place err on
-  /// their own.
+  /// Variance of a point here over that of a measured one: it is a mean, and two sensors that see the same
+  /// place err on their own.
   double variance_share = 1;
 };
 

@@ -12,12 +12,12 @@ namespace lightstripe {
 
 /// frame,travel,nominal, each quantity and its _sigma, fit_rms,fit_points,status, then what was added later:
 /// extras with their _sigma, verdict, missing (which cells are empty and why).
-/// frame,travel,gauge_mm,y_mm,delta_r_mm,tan_gamma_e,tan_gamma_e_sigma: one row an amplitude of each section.
-std::string track_conicity_table(const std::vector<MeasuredFrame>& rows);
-
 std::string measurement_table(const std::vector<MeasuredFrame>& rows, ObjectKind kind,
                               const std::vector<std::string>& extras,
                               const std::vector<std::string>& verdicts);
+
+/// frame,travel,gauge_mm,y_mm,delta_r_mm,tan_gamma_e,tan_gamma_e_sigma: one row an amplitude of each section.
+std::string track_conicity_table(const std::vector<MeasuredFrame>& rows);
 
 /// "side_wear: gauge face not seen | head_width: ..."; empty where all is known.
 std::string missing_of(const MeasuredFrame& row);

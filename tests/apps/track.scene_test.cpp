@@ -36,7 +36,8 @@ double face_of(const Points& points, double outwards) {
   const double level = top_of(points) - 14;
   double face = 1e300;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const auto& [u, v] = points[i], &[ next_u, next_v ] = points[(i + 1) % points.size()];
+    const auto& [u, v] = points[i];
+    const auto& [next_u, next_v] = points[(i + 1) % points.size()];
     if (v >= level) face = std::min(face, outwards * u);
     if ((v - level) * (next_v - level) < 0)
       face = std::min(face, outwards * (u + (level - v) / (next_v - v) * (next_u - u)));
@@ -62,7 +63,7 @@ class Track : public ::testing::Test {
   static void SetUpTestSuite() {
     folder_ = new TemporaryFolder;
     std::string scene = text_of(std::string(LIGHTSTRIPE_SOURCE_DIR) + "/configs/scenes/track.yaml");
-    const std::string scan = "frames: 12, step_mm: 100";
+    const std::string scan = "frames: 6, step_mm: 200";
     scene.replace(scene.find(scan), scan.size(), fmt::format("frames: {}, step_mm: 400", kFrames));
     write_text(*folder_ / "scene.yaml", scene);
     const std::string at = quoted(folder_->path());
