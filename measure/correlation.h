@@ -15,28 +15,14 @@ namespace lightstripe {
 /// chain shares is correlation.
 double correlated_points(const Section& section, const std::vector<FitPoint>& points);
 
+/// Distance along the stripes over which the correlation of the residuals falls to 1/e, mm: the short part,
+/// what the extraction and the speckle share. correlated_points() is larger: it has also the slow part, a
+/// bias of some microns that a whole face has in common (a tenth to a fifth of the variance where the scatter
+/// is 5 microns), which is an error of the registration but no waviness.
+double correlation_length_mm(const Section& section, const std::vector<FitPoint>& points);
+
 /// What the place of a short stretch of surface errs by, beyond its points' scatter: rms of the mean
 /// residuals of stretches of some 8 mm of the chains. 0 with fewer than four stretches.
 double stretch_error_mm(const Section& section, const std::vector<FitPoint>& points);
-
-/// A point's error across the surface: a part of its own and one that it shares with its neighbours, by a
-/// correlation of exp(-distance / length).
-struct ErrorAlong {
-  double own_mm = 0, shared_mm = 0;
-  double length_mm = 1;
-};
-
-/// Fitted to the residuals' autocovariance along the chains, up to 16 mm. Points of weight 0 are left out.
-ErrorAlong error_along(const Section& section, const std::vector<FitPoint>& points);
-
-/// 1-sigma of the sum of errors, each times its factor, of points at `places` along the surface (mm, in any
-/// order).
-double sigma_of_sum(const ErrorAlong& error, const std::vector<double>& places,
-                    const std::vector<double>& factors);
-
-/// Covariance of the normal equations' right side (turn about the reference's origin; shift u, v), the
-/// points' weights held: H^-1 (this) H^-1 is the pose's.
-Eigen::Matrix3d gradient_covariance(const ErrorAlong& error, const Section& section,
-                                    const std::vector<FitPoint>& points);
 
 }  // namespace lightstripe

@@ -11,6 +11,7 @@
 
 #include "measure/closest_points.h"
 #include "measure/correlation.h"
+#include "measure/error_along.h"
 #include "measure/robust_line.h"
 
 namespace lightstripe {
@@ -151,6 +152,7 @@ void describe(const Section& section, const Fit& fit, bool upright, Registration
       std::count_if(fit.points.begin(), fit.points.end(), [](const FitPoint& p) { return p.weight > 0; }));
   out.rms_mm = equations.weight > 0 ? std::sqrt(equations.squares / equations.weight) : 0.0;
   out.correlated_points = correlated_points(section, fit.points);
+  out.correlation_mm = correlation_length_mm(section, fit.points);
   out.stretch_error_mm = stretch_error_mm(section, fit.points);
   const double variance = kTukeyVariance * out.rms_mm * out.rms_mm * out.correlated_points;
   out.covariance.setZero();

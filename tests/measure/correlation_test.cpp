@@ -6,26 +6,11 @@
 
 #include <cmath>
 
+#include "chain.h"
 #include "core/random.h"
 
 namespace lightstripe {
 namespace {
-
-using Eigen::Vector2d;
-
-struct Chain {
-  Section section;
-  std::vector<FitPoint> points;
-
-  void add(double place, double residual) {
-    FitPoint point;
-    point.position = Vector2d(place, 0);
-    point.normal = Vector2d::UnitY();
-    point.residual = residual, point.weight = 1, point.index = static_cast<int>(section.size());
-    points.push_back(point);
-    section.push_back({point.position, 0, 0, 0, 1});
-  }
-};
 
 // Each stretch of 8 mm is off by 0.02 as a whole: that is what a stretch errs by.
 TEST(StretchError, IsTheOffsetThatAStretchShares) {
@@ -44,48 +29,6 @@ TEST(StretchError, OfIndependentNoiseIsThatOfItsMean) {
   EXPECT_NEAR(stretch_error_mm(chain.section, chain.points), 0.02 / 9, 0.2 * 0.02 / 9);
 }
 
-// An autoregressive chain beside independent noise: both are told apart. 200 stretches know the shared part
-// to some 7 %.
-TEST(ErrorAlong, IsTakenApartIntoItsOwnAndTheSharedPart) {
-  Chain chain;
-  Random random(6);
-  const double a = std::exp(-0.1 / 2);
-  double last = 0;
-  for (int i = 0; i < 8000; ++i) {
-    last = a * last + std::sqrt(1 - a * a) * 0.02 * random.gaussian();
-    chain.add(0.1 * i, last + 0.01 * random.gaussian());
-  }
-  const ErrorAlong error = error_along(chain.section, chain.points);
-  EXPECT_NEAR(error.own_mm, 0.01, 0.003);
-  EXPECT_NEAR(error.shared_mm, 0.02, 0.003);
-  EXPECT_EQ(error.length_mm, 2);
-}
-
-TEST(ErrorAlong, OfIndependentNoiseSharesNothing) {
-  int shared = 0;
-  for (int seed = 1; seed <= 20; ++seed) {
-    Chain chain;
-    Random random(static_cast<std::uint64_t>(seed));
-    for (int i = 0; i < 500; ++i) chain.add(0.1 * i, 0.02 * random.gaussian());
-    const ErrorAlong error = error_along(chain.section, chain.points);
-    EXPECT_NEAR(error.own_mm, 0.02, 0.003);
-    shared += error.shared_mm > 0 ? 1 : 0;
-  }
-  EXPECT_LE(shared, 2);
-}
-
-// By the double sum over all pairs, in any order.
-TEST(ErrorAlong, SigmaOfASumCountsWhatNeighboursShare) {
-  const ErrorAlong error{0.01, 0.03, 2};
-  const std::vector<double> places{3, 0, 0.5, 7}, factors{0.4, 0.3, -0.2, 0.5};
-  double variance = 0;
-  for (std::size_t i = 0; i < places.size(); ++i)
-    for (std::size_t k = 0; k < places.size(); ++k)
-      variance += factors[i] * factors[k] *
-                  ((i == k ? 0.01 * 0.01 : 0) + 0.03 * 0.03 * std::exp(-std::abs(places[i] - places[k]) / 2));
-  EXPECT_NEAR(sigma_of_sum(error, places, factors), std::sqrt(variance), 1e-12);
-}
-
 // An autoregressive chain: 1 + 2 (a + a^2 + ...) = (1 + a) / (1 - a).
 TEST(CorrelatedPoints, AreThoseOfAnAutoregressiveChain) {
   Chain chain;
@@ -95,6 +38,25 @@ TEST(CorrelatedPoints, AreThoseOfAnAutoregressiveChain) {
   for (int i = 0; i < 20000; ++i)
     chain.add(0.1 * i, last = a * last + std::sqrt(1 - a * a) * 0.01 * random.gaussian());
   EXPECT_NEAR(correlated_points(chain.section, chain.points), (1 + a) / (1 - a), 1.5);
+}
+
+// Correlation a^lag falls to 1/e over -1 / ln(a) points of 0.1 mm. An offset that a whole chain shares, a
+// tenth of the variance, leaves the length nearly as it is and counts in full in correlated_points().
+TEST(CorrelationLength, IsTheShortPartOnly) {
+  const double a = 0.7, length = -0.1 / std::log(a);
+  for (const double offset : {0.0, 0.0033}) {
+    Chain chain;
+    Random random(6);
+    double last = 0;
+    for (int i = 0; i < 20000; ++i) {
+      last = a * last + std::sqrt(1 - a * a) * 0.01 * random.gaussian();
+      chain.add(0.1 * i, last + (i / 200 % 2 == 0 ? offset : -offset));
+    }
+    EXPECT_NEAR(correlation_length_mm(chain.section, chain.points), length, 0.25 * length) << offset;
+    if (offset > 0) {
+      EXPECT_GT(correlated_points(chain.section, chain.points), 1.5 * (1 + a) / (1 - a));
+    }
+  }
 }
 
 }  // namespace
