@@ -39,14 +39,16 @@ void collect_level(const OwnScaleSearch<T>& search, int level, SeedWorkspace& se
     rule.windows = search.windowed->seeds;
     rule.binned = level;
   }
-  find_seeds(w.pyramid.levels[k], rule, seeds);
+  collect_seeds(w.pyramid.levels[k], rule, seeds);
   const int half = (1 << level) / 2;
-  for (const LineSeed& s : seeds.sorted)
-    w.found.push_back({(s.x << level) + half, (s.y << level) + half, static_cast<std::int16_t>(level),
-                       static_cast<std::int16_t>(s.rank)});
+  for (const LineSeed& s : seeds.found) {
+    const int x = (s.x << level) + half, y = (s.y << level) + half;
+    if (!search.image.contains(x, y) || search.image.laser_colour(x, y) < LaserPlace::kFaint) continue;
+    w.found.push_back({x, y, static_cast<std::int16_t>(level), static_cast<std::int16_t>(s.rank)});
+  }
 }
 
-/// By falling contrast, then from fine to coarse levels; a counting sort keeps
+/// By falling contrast, then from fine to coarse levels, then in reading order; a counting sort keeps
 /// the order of equals.
 template <class T>
 void sort_seeds(OwnScaleWorkspace<T>& w) {
@@ -345,9 +347,6 @@ void LineFinder<T>::block(const Followed& line, double sigmas, int finest_level)
 
 template <class T>
 void LineFinder<T>::try_seed(const ScaleSeed& seed) {
-  if (!search_.image.contains(seed.x, seed.y) ||
-      search_.image.laser_colour(seed.x, seed.y) < LaserPlace::kFaint)
-    return;
   const std::uint16_t label = following_.mask(seed.x, seed.y);
   if (label != ExclusionMask::kFree && label != ExclusionMask::kDead) return;
   std::uint8_t& cell = tried(seed.level, seed.x, seed.y);

@@ -82,7 +82,8 @@ void fill_row_outside(ImageView<T> image, const BorderWindow& w, int y, T* out) 
 
 template <class T>
 void fill_border_window(ImageView<T> image, const BorderWindow& place, std::vector<T>& window) {
-  window.assign(static_cast<std::size_t>(place.taps) * static_cast<std::size_t>(place.pitch), T{});
+  // What is left from before in columns that have no weight is only multiplied by 0.
+  window.resize(static_cast<std::size_t>(place.taps) * static_cast<std::size_t>(place.pitch));
   const int first = std::clamp(-place.left, 0, place.taps);
   const int last = std::clamp(image.width - place.left, first, place.taps);
   for (int j = 0; j < place.taps; ++j) {
