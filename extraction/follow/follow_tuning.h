@@ -54,6 +54,16 @@ struct FollowTuning {
   /// Widths and heights of the image: more points than this followed in vain
   /// are a crowd of noise, and the search ends.
   double futile_points = 3;
+  /// The same once lines are found that are together as long as the picture's shorter side: seeds come by
+  /// falling contrast, so that a dozen crumbs in a row are the picture's texture.
+  double futile_points_with_line = 1.0;
+  /// The same for what is then tried beside the ends of lines, where a line goes on that a gap or a dark
+  /// surface interrupts.
+  double futile_points_beside_ends = 0.4;
+  /// Of the least length, for a line as bright as the strongest: so much is a line that may go on.
+  double evident_line = 0.4;
+  /// Full widths: so far from a line's end, straight on, its rest may stand out first.
+  double widths_beside_end = 12;
   /// Points of following that a seed costs at which no scale shows a line:
   /// about 2 microseconds.
   double futile_seed = 3;
