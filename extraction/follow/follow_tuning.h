@@ -71,4 +71,50 @@ struct FollowTuning {
   double futile_line = 50;
 };
 
+/// The numbers of a single step along a line.
+struct StepTuning {
+  /// Sigma to both sides of a line that no other one uses: 3.6 stripe standard deviations less what a
+  /// crossing line needs to come near.
+  double marked = 2.1;
+  /// Radians, to both sides: where a line may leave around a corner, up to about a right angle with the next
+  /// step's own turn.
+  double corner_angle = 0.6, sharp_corner_angle = 1.2;
+  /// Of the line's recent strength: around a corner the line stays about as strong, beyond a gap it may be
+  /// dimmer.
+  double corner_strength = 0.2, landing_strength = 0.02;
+  /// Sigma, and steps: another line's mask so near ahead disturbs the ridge already.
+  double disturbed_by_line = 2, disturbed_by_line_least = 2;
+  /// Sigma: how far ahead a line is looked for behind a crossing, which is as long as a line is wide at 20
+  /// degrees.
+  double farthest_behind_crossing = 14;
+  /// Sigma, and as much more as the line is long: a direction taken from a few points says nothing farther
+  /// ahead, and crumbs beside a line are tried over and over.
+  double farthest_of_first_points = 7;
+  /// Px: how far from the straight way the line may be, growing by a share of the distance up to the most.
+  double landing_reach = 0.75, landing_spread = 0.12, most_landing_reach = 2.5;
+  /// Cosine of the turn at a landing (23 degrees), and at the point that has to confirm it (11 degrees).
+  double landing_cosine = 0.92, confirmed_cosine = 0.98;
+  /// Weight of a point's direction in that of the line: of a clear one, and of one in noise.
+  double clear_weight = 0.8, noisy_weight = 0.25;
+  /// A step: what remains of the strongest recent point, so that a line may fade over some 50 px.
+  double remembered_strength = 0.95;
+  /// Sigma, and points besides: before a crossing so many points are drawn aside and given up.
+  double doubtful = 1.5, doubtful_least = 1;
+  /// Points back from there, over which the direction is taken.
+  int base_points = 6;
+  /// Plain steps before several columns are taken at once; and the share of the recent strength below which
+  /// they are taken singly.
+  int steady_steps = 3;
+  double stride_strength = 0.5;
+  /// Sigma, and steps besides: so long a line may be followed on in another one's disturbance.
+  double disturbed_steps = 3, disturbed_steps_least = 2;
+  /// Points: a line that comes back to its start after fewer is none that is closed.
+  int least_closed = 12;
+  /// Points, and the share of them that the line must have got on in a straight way; else it curls up on a
+  /// spot.
+  int curl_window = 8;
+  double curl_advance = 0.4;
+};
+inline constexpr StepTuning kStepTuning;
+
 }  // namespace lightstripe
