@@ -56,7 +56,7 @@ TEST(SearchPatience, KnowsWhereALineMayGoOn) {
   EXPECT_FALSE(patience.is_beside_end(310, 100));
   patience.add_line(straight_line(300), 4);
   EXPECT_EQ(patience.lines(), 1U);
-  EXPECT_TRUE(patience.is_beside_end(305, 94)) << "around a corner";
+  EXPECT_TRUE(patience.is_beside_end(304, 95)) << "around a corner";
   EXPECT_TRUE(patience.is_beside_end(330, 105)) << "straight on";
   EXPECT_TRUE(patience.is_beside_end(-20, 103)) << "at the other end";
   EXPECT_FALSE(patience.is_beside_end(330, 120)) << "aside";
