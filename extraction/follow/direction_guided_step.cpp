@@ -178,7 +178,9 @@ std::optional<Landing> Follower<T>::look_ahead(const Tip& tip, int nearest, bool
                                  kTuning.farthest_of_first_points + length_ / finder_.kernels.sigma);
   const int farthest = far ? static_cast<int>(sigmas * finder_.kernels.sigma) : limits_.largest_gap;
   const int confirmed_after = far ? 1 + static_cast<int>(finder_.kernels.sigma) : 1;
-  for (int k = nearest; k <= farthest; ++k) {
+  const int step =
+      far ? std::max(1, static_cast<int>(kTuning.step_behind_crossing * finder_.kernels.sigma)) : 1;
+  for (int k = nearest; k <= farthest; k += step) {
     RidgeSearch search = predict(tip, tip.direction, k, 0);
     if (!is_free(search.x, search.y)) continue;
     search.reach = std::min(kTuning.landing_reach + kTuning.landing_spread * k, kTuning.most_landing_reach);

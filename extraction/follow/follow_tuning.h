@@ -90,6 +90,8 @@ struct StepTuning {
   /// Sigma, and as much more as the line is long: a direction taken from a few points says nothing farther
   /// ahead, and crumbs beside a line are tried over and over.
   double farthest_of_first_points = 7;
+  /// Sigma from one place to the next there: the smoothed picture holds nothing finer.
+  double step_behind_crossing = 1;
   /// Px: how far from the straight way the line may be, growing by a share of the distance up to the most.
   double landing_reach = 0.75, landing_spread = 0.12, most_landing_reach = 2.5;
   /// Cosine of the turn at a landing (23 degrees), and at the point that has to confirm it (11 degrees).
