@@ -11,6 +11,7 @@
 
 #include "measure/closest_points.h"
 #include "measure/correlation.h"
+#include "measure/error_along.h"
 #include "measure/robust_line.h"
 
 namespace lightstripe {
@@ -163,6 +164,22 @@ void describe(const Section& section, const Fit& fit, bool upright, Registration
   }
 }
 
+/// The same of a wheel, whose few unworn stretches may be off as a whole.
+void describe_wheel(const Section& section, const Fit& fit, bool upright, Registration& out) {
+  describe(section, fit, upright, out);
+  out.error = error_along(section, fit.points);
+  if (out.covariance.isZero()) return;
+  const Matrix3d noise = gradient_covariance(out.error, section, fit.points);
+  const Matrix3d H = normal_equations(fit.points).H;
+  if (upright) {
+    const Eigen::Matrix2d inverse = H.bottomRightCorner<2, 2>().inverse();
+    out.covariance.bottomRightCorner<2, 2>() = inverse * noise.bottomRightCorner<2, 2>() * inverse;
+  } else {
+    const Matrix3d inverse = H.inverse();
+    out.covariance = inverse * noise * inverse;
+  }
+}
+
 /// Fits to what does not wear; then again without the head faces, which come back only where they agree.
 void refine_rail(const Section& section, const ReferenceShape& reference, bool upright,
                  const RegistrationOptions& options, Fit& fit, Registration& out) {
@@ -249,7 +266,7 @@ Registration register_section(const Section& section, const ReferenceShape& refe
   } else {
     fit = settle(section, reference, rail ? all_zones() : unworn_zones(reference.kind()), prior.upright,
                  options, fit.pose);
-    describe(section, fit, prior.upright, out);
+    (rail ? describe : describe_wheel)(section, fit, prior.upright, out);
   }
   out.reason = judged(fit, out, reference, options);
   return out;

@@ -6,26 +6,11 @@
 
 #include <cmath>
 
+#include "chain.h"
 #include "core/random.h"
 
 namespace lightstripe {
 namespace {
-
-using Eigen::Vector2d;
-
-struct Chain {
-  Section section;
-  std::vector<FitPoint> points;
-
-  void add(double place, double residual) {
-    FitPoint point;
-    point.position = Vector2d(place, 0);
-    point.normal = Vector2d::UnitY();
-    point.residual = residual, point.weight = 1, point.index = static_cast<int>(section.size());
-    points.push_back(point);
-    section.push_back({point.position, 0, 0, 0, 1});
-  }
-};
 
 // Each stretch of 8 mm is off by 0.02 as a whole: that is what a stretch errs by.
 TEST(StretchError, IsTheOffsetThatAStretchShares) {
