@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <opencv2/core/utils/logger.hpp>
 
@@ -157,6 +158,7 @@ void open_standard_streams() {
 int main(int argc, char** argv) {
   // OpenCV's own lines on stderr say less than our one error line, and would stand before it.
   cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
+  ::setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", 0);  // likewise those of its video reader
   open_standard_streams();
   std::signal(SIGPIPE, SIG_IGN);  // messages that nobody reads never cost a result
   lightstripe::clean_up_at_signals();

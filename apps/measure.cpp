@@ -33,7 +33,7 @@ struct MeasureArguments {
   std::string features, limits_file, report, scan, view;
   TableStyle style = TableStyle::kPlain;
   std::vector<std::int64_t> plot;
-  Overrides rail, wheel, registration, limit;
+  Overrides rail, wheel, registration, limit, conicity;
 };
 
 /// The picture of a frame's section, beside the table.
@@ -46,6 +46,7 @@ MeasureJob job_of(const MeasureArguments& arguments) {
   apply_overrides(job.options.rail, arguments.rail);
   apply_overrides(job.options.wheel, arguments.wheel);
   apply_overrides(job.options.registration, arguments.registration);
+  apply_overrides(job.reference.conicity, arguments.conicity);
   if (!arguments.limits_file.empty()) read_yaml(arguments.limits_file, job.limits);
   apply_overrides(job.limits, arguments.limit);
   if (!arguments.common.output.empty()) job.table = arguments.common.output;
@@ -90,7 +91,7 @@ void summarise(const MeasureArguments& arguments, const MeasureJob& job, const M
     say(common, fmt::format("{:<18} {:>6} {:>10.3f} {:>10.3f} {:>10.3f}", name, spread.known, spread.low,
                             spread.mean, spread.high));
   }
-  for (const char* const name : {"overlap_gap", "gauge"}) {
+  for (const char* const name : {"overlap_gap", "gauge", "conicity"}) {
     const Spread spread = spread_of(result.rows, name);
     if (spread.known > 0)
       say(common, fmt::format("{:<18} {:>6} {:>10.3f} {:>10.3f} {:>10.3f}", name, spread.known, spread.low,
@@ -116,6 +117,7 @@ int run_measure(const MeasureArguments& arguments) {
   const MeasureResult result = measure(job, progress_line(arguments.common.quiet));
   write_plots(arguments, job, result);
   if (!job.table.empty()) apply_table_style(job.table, arguments.style);
+  if (!job.conicity_table.empty()) apply_table_style(job.conicity_table, arguments.style);
   if (!arguments.view.empty())
     write_file(arguments.view,
                cloud_view_html(view_of_sections(job, result, arguments.view, arguments.scan)));
@@ -185,6 +187,13 @@ void add_measure_command(CLI::App& app, Command& run) {
                    "one or two: sensors over both rails of a track; measures the gauge between them [one]");
   command->add_option("--nominal-right", arguments->job.reference.nominal_right,
                       "with --rails two: the new rail at -y [as --nominal]");
+  command->add_option("--wheelset", arguments->job.reference.wheelset,
+                      "with --rails two: wheels (e.g. S1002, or as `conicity --wheel`) whose equivalent "
+                      "conicity on each section is wanted");
+  command->add_option("--wheelset-right", arguments->job.reference.wheelset_right,
+                      "its right wheel, if it is another");
+  command->add_option("--conicity", arguments->job.conicity_table,
+                      "with --wheelset: table of every section's conicity over the amplitude (csv)");
   command
       ->add_option("--require", arguments->job.options.required,
                    "what you need of each section, e.g. vertical_wear,side_wear: a row is ok where these are "
@@ -210,6 +219,7 @@ void add_measure_command(CLI::App& app, Command& run) {
   add_field_options<RailOptions>(*command, "", arguments->rail);
   add_field_options<WheelOptions>(*command, "wheel.", arguments->wheel);
   add_field_options<RegistrationOptions>(*command, "registration.", arguments->registration);
+  add_field_options<ConicityOptions>(*command, "conicity.", arguments->conicity);
   add_field_options<Limits>(*command, "limit.", arguments->limit);
   command->add_option("--max-overlap-gap-mm", arguments->job.options.max_overlap_gap_mm,
                       "between two sensors on the head: above, the calibration is in doubt [0.1]");

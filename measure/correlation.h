@@ -15,6 +15,12 @@ namespace lightstripe {
 /// chain shares is correlation.
 double correlated_points(const Section& section, const std::vector<FitPoint>& points);
 
+/// Distance along the stripes over which the correlation of the residuals falls to 1/e, mm: the short part,
+/// what the extraction and the speckle share. correlated_points() is larger: it has also the slow part, a
+/// bias of some microns that a whole face has in common (a tenth to a fifth of the variance where the scatter
+/// is 5 microns), which is an error of the registration but no waviness.
+double correlation_length_mm(const Section& section, const std::vector<FitPoint>& points);
+
 /// What the place of a short stretch of surface errs by, beyond its points' scatter: rms of the mean
 /// residuals of stretches of some 8 mm of the chains. 0 with fewer than four stretches.
 double stretch_error_mm(const Section& section, const std::vector<FitPoint>& points);

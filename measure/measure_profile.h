@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/profile.h"
+#include "measure/conicity.h"
 #include "measure/measure_rail.h"
 #include "measure/measure_wheel.h"
 #include "measure/overlap_gap.h"
@@ -38,6 +39,7 @@ struct MeasuredFrame {
   std::vector<NamedEstimate> extras;     ///< behind `status`
   Registration registration;
   std::optional<Registration> right_registration;  ///< of the other rail, see measure_track()
+  std::vector<ConicityRow> conicity;               ///< of a reference wheelset on a track, if asked for
   std::string status;                              ///< "ok" or why not
 };
 

@@ -28,26 +28,52 @@ double weight_of(const PlacedSection& placed, const Vector2d& point) {
 struct Place {
   std::string reason;  ///< empty: known
   double value = 0, sigma = 0;
+  double per_turn = 0;  ///< how far it moves where the section is turned, mm per rad
   bool known() const { return reason.empty(); }
 };
 
-Place place_from(const std::optional<PolynomialFit>& fit, double at, const Registration& registration,
-                 const std::string& what) {
-  if (!fit) return {what + " not seen", 0, 0};
-  const double scatter = std::max(fit->rms, kMinScaleMm) * std::sqrt(fit->value_factor);
-  return {"", at + fit->value, std::hypot(scatter, registration.stretch_error_mm)};
+Place unseen(const std::string& what) { return {what + " not seen"}; }
+
+/// 1-sigma of a fit's value at `t`: of what its points err by, each by itself and together with its
+/// neighbours, and, where they scatter clearly more here than the section's points elsewhere, by that.
+double sigma_at(const PolynomialFit& fit, const std::vector<Sample1>& samples, int degree, double t,
+                const ErrorAlong& error) {
+  const double slope = fit.slope + fit.curvature * t, steep = std::hypot(1, slope);
+  std::vector<double> places;
+  for (const Sample1& s : samples) places.push_back(steep * s.t);
+  const double here = std::max(fit.rms / steep, kMinScaleMm);
+  const double usual = std::hypot(error.own_mm, error.shared_mm);
+  const double by_chance = 1 + 3 / std::sqrt(2.0 * fit.num_samples);
+  ErrorAlong local = error;
+  if (here > by_chance * usual)
+    local.own_mm = std::sqrt(error.own_mm * error.own_mm + here * here - usual * usual);
+  return steep * sigma_of_sum(local, places, influences(samples, fit, degree, t));
+}
+
+/// The samples' polynomial at `t`, over `from`.
+Place place_from(const std::vector<Sample1>& samples, int degree, double from, double per_turn,
+                 const PlacedSection& placed, const std::string& what) {
+  const auto fit = fit_polynomial(samples, degree, kMinScaleMm);
+  if (!fit) return unseen(what);
+  return {"", from + fit->value, sigma_at(*fit, samples, degree, 0, placed.registration.error), per_turn};
+}
+
+double mean_of_places(const std::vector<Sample1>& samples) {
+  double sum = 0;
+  for (const Sample1& s : samples) sum += s.t;
+  return sum / static_cast<double>(samples.size());
 }
 
 /// u of the wheel's back: of its own points, else of the registration.
 Place find_back(const PlacedSection& placed, const WheelSectionKind& kind) {
   constexpr double kBackU = -70, kNearMm = 3, kFewest = 8;
-  if (kind.back_is_given) return {"", kBackU, 0};
+  if (kind.back_is_given) return {"", kBackU};
   std::vector<Sample1> back;
   for (const Vector2d& p : placed.points)
     if (std::abs(p.x() - kBackU) < kNearMm && p.y() < placed.reference.top_v() - 19.5 && p.y() > -40)
       back.push_back({p.y(), p.x() - kBackU, weight_of(placed, p)});
   if (static_cast<double>(back.size()) >= kFewest) {
-    const Place seen = place_from(fit_polynomial(back, 0, kMinScaleMm), kBackU, placed.registration, "back");
+    const Place seen = place_from(back, 0, kBackU, -mean_of_places(back), placed, "back");
     if (seen.known()) return seen;
   }
   return {"", kBackU, placed.registration.sigma_of({kBackU, 0}, {1, 0})};
@@ -62,8 +88,8 @@ Place tread_height(const PlacedSection& placed, double u) {
       samples.push_back({p.x() - u, p.y(), weight_of(placed, p)});
       (p.x() < u ? left : right) = true;
     }
-  if (!left || !right) return {"tread at the datum not seen", 0, 0};
-  return place_from(fit_polynomial(samples, 2, kMinScaleMm), 0, placed.registration, "tread at the datum");
+  if (!left || !right) return unseen("tread at the datum");
+  return place_from(samples, 2, 0, u, placed, "tread at the datum");
 }
 
 struct Tip {
@@ -79,13 +105,13 @@ Tip find_tip_itself(const PlacedSection& placed) {
     if (p.x() < kFlangeU && p.x() > -75 && p.y() < placed.reference.top_v() + 15 && p.y() > kAboveDatumMm &&
         (!highest || p.y() > highest->y()))
       highest = &p;
-  if (!highest) return {{"flange tip not seen", 0, 0}, 0};
+  if (!highest) return {unseen("flange tip"), 0};
   std::vector<Sample1> samples;
   for (const Vector2d& p : placed.points)
     if (std::abs(p.x() - highest->x()) < kHalfWidthMm && highest->y() - p.y() < 2)
       samples.push_back({p.x() - highest->x(), p.y() - highest->y(), weight_of(placed, p)});
   const auto fit = fit_polynomial(samples, 2, kMinScaleMm);
-  if (!fit || fit->curvature >= 0) return {{"flange tip not seen", 0, 0}, 0};
+  if (!fit || fit->curvature >= 0) return {unseen("flange tip"), 0};
   const double vertex = -fit->slope / fit->curvature;
   // The top lies between points on its either side, else the section ends before it.
   constexpr double kBesideMm = 0.5;
@@ -93,10 +119,11 @@ Tip find_tip_itself(const PlacedSection& placed) {
   const auto right = [&](const Sample1& s) { return s.t > vertex + kBesideMm; };
   if (std::count_if(samples.begin(), samples.end(), left) < 2 ||
       std::count_if(samples.begin(), samples.end(), right) < 2)
-    return {{"flange tip not seen", 0, 0}, 0};
-  Tip tip{place_from(fit, highest->y(), placed.registration, "flange tip"), highest->x() + vertex};
-  tip.height.value += fit->slope * vertex + fit->curvature * vertex * vertex / 2;
-  return tip;
+    return {unseen("flange tip"), 0};
+  const double height =
+      highest->y() + fit->value + fit->slope * vertex + fit->curvature * vertex * vertex / 2;
+  const double sigma = sigma_at(*fit, samples, 2, vertex, placed.registration.error);
+  return {{"", height, sigma, highest->x() + vertex}, highest->x() + vertex};
 }
 
 /// Whether the section has points about a place that lie well inside their stripes.
@@ -125,7 +152,7 @@ Tip find_tip(const PlacedSection& placed) {
   const double vertex = -around.slope / curvature;  // across: towards the wheel's back
   const double height = around.along_mm + around.slope * vertex / 2;
   if (std::abs(height - itself.height.value) > kAgreesMm) return itself;
-  return {{"", height, around.local_sigma_mm}, top.x() - vertex};
+  return {{"", height, around.local_sigma_mm, top.x() - vertex}, top.x() - vertex};
 }
 
 /// u of the flange's face towards the tread at a height, of the points next to it.
@@ -139,9 +166,9 @@ Place face_itself(const PlacedSection& placed, double v, double half_height_mm, 
       samples.push_back({p.y() - v, p.x() - tip_u, weight_of(placed, p)});
       (p.y() < v ? below : above) = true;
     }
-  if (!above || !below) return {what + " not seen", 0, 0};
+  if (!above || !below) return unseen(what);
   const int degree = samples.size() >= 6 ? 2 : 1;
-  return place_from(fit_polynomial(samples, degree, kMinScaleMm), tip_u, placed.registration, what);
+  return place_from(samples, degree, tip_u, -v, placed, what);
 }
 
 /// The same at the height of a place, whose error shifts it along the face.
@@ -150,36 +177,69 @@ Place face_at(const PlacedSection& placed, const Place& height, double over_mm, 
   const double v = height.value + over_mm;
   Place face = face_itself(placed, v, half_height_mm, tip_u, what);
   const SurfaceFit around = fit_surface(placed, {{tip_u, v}, {1, 0}, -2, 1, 30, 2});
-  if (around.known()) face.sigma = std::hypot(face.sigma, around.slope * height.sigma);
+  if (!around.known()) return face;
+  // Against the height's place the face rises where the section is turned.
+  face.sigma = std::hypot(face.sigma, around.slope * height.sigma);
+  face.per_turn += around.slope * (height.per_turn - face.value);
   return face;
 }
 
-Estimate difference(const Place& a, const Place& b) {
+Estimate difference(const Place& a, const Place& b, const Registration& registration) {
   if (!a.known()) return Estimate::unknown(a.reason);
   if (!b.known()) return Estimate::unknown(b.reason);
-  return Estimate::known(a.value - b.value, std::hypot(a.sigma, b.sigma));
+  const double turn = std::sqrt(registration.covariance(0, 0));
+  return Estimate::known(a.value - b.value, std::hypot(a.sigma, b.sigma, (a.per_turn - b.per_turn) * turn));
 }
 
-/// How far the tread lies below its highest point on the field side, by medians of strips.
+/// The median height of a strip of the tread.
+Place strip_height(const PlacedSection& placed, double u, double half_width_mm) {
+  constexpr double kMedianLoss = 1.57;  // pi / 2: variance of a median over that of a mean
+  std::vector<double> heights, places;
+  for (const Vector2d& p : placed.points)
+    if (std::abs(p.x() - u) < half_width_mm && std::abs(p.y()) < 20)
+      heights.push_back(p.y()), places.push_back(p.x());
+  if (heights.empty()) return unseen("tread");
+  ErrorAlong error = placed.registration.error;
+  if (places.size() > 2) error.own_mm *= std::sqrt(kMedianLoss);
+  error.own_mm = std::max(error.own_mm, kMinScaleMm);
+  const std::vector<double> shares(places.size(), 1 / static_cast<double>(places.size()));
+  return {"", median(heights), sigma_of_sum(error, places, shares), u};
+}
+
+/// The summit or the bottom near a strip that is the highest or lowest: of a parabola over its surroundings.
+Place extremum_near(const PlacedSection& placed, const Place& strip) {
+  constexpr double kHalfWidthMm = 4, kFarthestMm = 2;
+  const double u = strip.per_turn;
+  std::vector<Sample1> samples;
+  for (std::size_t i = 0; i < placed.points.size(); ++i) {
+    const Vector2d arm = placed.points[i] - Vector2d(u, strip.value);
+    if (std::abs(arm.x()) < kHalfWidthMm && std::abs(arm.y()) < kHalfWidthMm)
+      samples.push_back({arm.x(), arm.y(), placed.section[i].weight});
+  }
+  const auto fit = fit_polynomial(samples, 2, kMinScaleMm);
+  if (!fit || fit->curvature == 0) return strip;
+  const double at = -fit->slope / fit->curvature;
+  if (std::abs(at) > kFarthestMm) return strip;
+  return {"", strip.value + fit->value + fit->slope * at / 2,
+          sigma_at(*fit, samples, 2, at, placed.registration.error), u + at};
+}
+
+/// How far the tread lies below its highest point on the field side, which medians of strips find.
 Estimate hollow_of(const PlacedSection& placed) {
   constexpr double kFirstU = -20, kFieldU = 15, kLastU = 50, kSeenU = 36, kStripMm = 2;
-  std::vector<Sample1> strips;
-  for (double u = kFirstU; u <= kLastU; u += kStripMm) {
-    std::vector<double> heights;
-    for (const Vector2d& p : placed.points)
-      if (std::abs(p.x() - u) < kStripMm / 2 && std::abs(p.y()) < 20) heights.push_back(p.y());
-    if (!heights.empty()) strips.push_back({u, median(heights)});
-  }
-  if (strips.size() < 20 || strips.back().t < kSeenU)
+  std::vector<Place> strips;  // which move by their u where the section is turned
+  for (double u = kFirstU; u <= kLastU; u += kStripMm)
+    if (const Place strip = strip_height(placed, u, kStripMm / 2); strip.known()) strips.push_back(strip);
+  if (strips.size() < 20 || strips.back().per_turn < kSeenU)
     return Estimate::unknown("tread not seen to the field side");
-  const Sample1* high = nullptr;
-  for (const Sample1& s : strips)
-    if (s.t >= kFieldU && (!high || s.value > high->value)) high = &s;
-  double depth = 0;
-  for (const Sample1& s : strips)
-    if (s.t < high->t) depth = std::max(depth, high->value - s.value);
-  const double error = std::max(placed.registration.stretch_error_mm, kMinScaleMm);
-  return Estimate::known(depth, error * std::sqrt(2.0));
+  const Place* high = nullptr;
+  for (const Place& strip : strips)
+    if (strip.per_turn >= kFieldU && (!high || strip.value > high->value)) high = &strip;
+  const Place* low = high;
+  for (const Place& strip : strips)
+    if (strip.per_turn < high->per_turn && strip.value < low->value) low = &strip;
+  if (low == high) return difference(*high, *low, placed.registration);
+  return difference(extremum_near(placed, *high), extremum_near(placed, *low), placed.registration);
 }
 
 Estimate rim_width(const PlacedSection& placed, const Place& back) {
@@ -192,7 +252,9 @@ Estimate rim_width(const PlacedSection& placed, const Place& back) {
   const auto fit = fit_polynomial(outer, 0, kMinScaleMm);
   // What bends away is the rounded rim, no face.
   if (!fit || fit->rms > kUprightMm) return Estimate::unknown("outer face not seen");
-  return difference(place_from(fit, 0, placed.registration, "outer face"), back);
+  for (Sample1& s : outer) s.t -= 20;
+  const Place face = place_from(outer, 0, 0, -mean_of_places(outer), placed, "outer face");
+  return difference(face, back, placed.registration);
 }
 
 Estimate diameter_of(const Place& tread, const Registration& registration, const WheelSectionKind& kind) {
@@ -271,7 +333,7 @@ WheelMeasurement measure_wheel(const Section& section, const ReferenceShape& ref
   const double datum_u = back.value + options.datum_mm;
   const Place tread = tread_height(placed, datum_u);
   const Tip tip = find_tip(placed);
-  out.flange_height = difference(tip.height, tread);
+  out.flange_height = difference(tip.height, tread, registration);
   out.hollow = hollow_of(placed);
   out.rim_width = rim_width(placed, back);
   out.diameter = diameter_of(tread, registration, kind);
@@ -284,8 +346,8 @@ WheelMeasurement measure_wheel(const Section& section, const ReferenceShape& ref
   const Place face = face_at(placed, tread, options.face_height_mm, 1.0, tip.u, "flange face");
   const Place upper =
       face_at(placed, tip.height, -options.qr_below_tip_mm, 0.8, tip.u, "flange below its tip");
-  out.flange_thickness = difference(face, back);
-  out.qr = difference(face, upper);
+  out.flange_thickness = difference(face, back, registration);
+  out.qr = difference(face, upper, registration);
   return out;
 }
 

@@ -11,6 +11,7 @@
 
 #include "measure/closest_points.h"
 #include "measure/correlation.h"
+#include "measure/error_along.h"
 #include "measure/robust_line.h"
 
 namespace lightstripe {
@@ -151,6 +152,7 @@ void describe(const Section& section, const Fit& fit, bool upright, Registration
       std::count_if(fit.points.begin(), fit.points.end(), [](const FitPoint& p) { return p.weight > 0; }));
   out.rms_mm = equations.weight > 0 ? std::sqrt(equations.squares / equations.weight) : 0.0;
   out.correlated_points = correlated_points(section, fit.points);
+  out.correlation_mm = correlation_length_mm(section, fit.points);
   out.stretch_error_mm = stretch_error_mm(section, fit.points);
   const double variance = kTukeyVariance * out.rms_mm * out.rms_mm * out.correlated_points;
   out.covariance.setZero();
@@ -159,6 +161,22 @@ void describe(const Section& section, const Fit& fit, bool upright, Registration
       out.covariance.bottomRightCorner<2, 2>() = variance * equations.H.bottomRightCorner<2, 2>().inverse();
   } else if (equations.H.determinant() > 0) {
     out.covariance = variance * equations.H.inverse();
+  }
+}
+
+/// The same of a wheel, whose few unworn stretches may be off as a whole.
+void describe_wheel(const Section& section, const Fit& fit, bool upright, Registration& out) {
+  describe(section, fit, upright, out);
+  out.error = error_along(section, fit.points);
+  if (out.covariance.isZero()) return;
+  const Matrix3d noise = gradient_covariance(out.error, section, fit.points);
+  const Matrix3d H = normal_equations(fit.points).H;
+  if (upright) {
+    const Eigen::Matrix2d inverse = H.bottomRightCorner<2, 2>().inverse();
+    out.covariance.bottomRightCorner<2, 2>() = inverse * noise.bottomRightCorner<2, 2>() * inverse;
+  } else {
+    const Matrix3d inverse = H.inverse();
+    out.covariance = inverse * noise * inverse;
   }
 }
 
@@ -195,8 +213,6 @@ double fitting_share(const Fit& fit, ObjectKind kind) {
 
 std::string judged(const Fit& fit, const Registration& out, const ReferenceShape& reference,
                    const RegistrationOptions& options) {
-  if (out.view == RegistrationView::kHeadOnly && !options.on_head)
-    return "head only: without web or foot the unworn rail's place is not known";
   if (out.num_points < options.min_fit_points)
     return fmt::format("only {} points on parts that do not wear, {} needed", out.num_points,
                        options.min_fit_points);
@@ -248,9 +264,13 @@ Registration register_section(const Section& section, const ReferenceShape& refe
   } else {
     fit = settle(section, reference, rail ? all_zones() : unworn_zones(reference.kind()), prior.upright,
                  options, fit.pose);
-    describe(section, fit, prior.upright, out);
+    (rail ? describe : describe_wheel)(section, fit, prior.upright, out);
   }
   out.reason = judged(fit, out, reference, options);
+  if (out.view == RegistrationView::kHeadOnly && !options.on_head) {
+    out.head_fits = out.num_points >= options.min_fit_points && out.rms_mm <= options.max_fit_rms_mm;
+    out.reason = "head only: without web or foot the unworn rail's place is not known";
+  }
   return out;
 }
 

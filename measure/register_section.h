@@ -11,6 +11,7 @@
 
 #include "core/fields.h"
 #include "measure/coarse_pose.h"
+#include "measure/error_along.h"
 
 namespace lightstripe {
 
@@ -62,9 +63,14 @@ struct Registration {
   int num_points = 0;           ///< that count
   double correlated_points =
       1;  ///< neighbouring points that share one error; the mean of n points has sigma = rms * sqrt(this / n)
+  double correlation_mm = 0;    ///< along the stripes, over which the scatter's correlation falls to 1/e
   double stretch_error_mm = 0;  ///< what the place of a short stretch of surface errs by, beyond scatter
+  ErrorAlong error;             ///< of its points; wheels only
   RegistrationView view = RegistrationView::kNone;
   std::string reason = "not registered";  ///< empty: usable
+  /// Not usable since only the head is seen, which lies on the reference's by its shape: what does not ask
+  /// where it once stood is known.
+  bool head_fits = false;
 
   bool usable() const { return reason.empty(); }
   /// Of the displacement along `direction` (unit) of a point given on the reference, mm.

@@ -105,6 +105,19 @@ std::optional<PolynomialFit> fit_polynomial(const std::vector<Sample1>& samples,
   const double small_sample = out.num_samples / static_cast<double>(out.num_samples - degree - 1);
   out.value_factor = kTukeyVariance * small_sample * fit->H_inverse(0, 0);
   out.slope_factor = degree > 0 ? kTukeyVariance * small_sample * fit->H_inverse(1, 1) : 0.0;
+  out.weights = std::move(weights);
+  return out;
+}
+
+std::vector<double> influences(const std::vector<Sample1>& samples, const PolynomialFit& fit, int degree,
+                               double t) {
+  LIGHTSTRIPE_CHECK(fit.weights.size() == samples.size(), "the fit is one of these samples");
+  const auto solved = solve(samples, fit.weights, degree);
+  std::vector<double> out(samples.size(), 0.0);
+  if (!solved) return out;
+  const VectorXd at = solved->H_inverse * powers(t, degree);
+  for (std::size_t i = 0; i < samples.size(); ++i)
+    out[i] = fit.weights[i] * at.dot(powers(samples[i].t, degree));
   return out;
 }
 

@@ -23,6 +23,7 @@ struct PolynomialFit {
   double slope_factor = 0;                     ///< the same of the slope
   double rms = 0;                              ///< of the samples, weighted
   int num_samples = 0;                         ///< that count
+  std::vector<double> weights;                 ///< of the samples in the end
 };
 
 /// Least squares, with the samples' weights relative to their largest, times Tukey's biweight (scale from the
@@ -30,5 +31,9 @@ struct PolynomialFit {
 /// 2. Nothing if fewer than degree + 3 samples count or they do not determine the polynomial.
 std::optional<PolynomialFit> fit_polynomial(const std::vector<Sample1>& samples, int degree,
                                             double min_scale);
+
+/// How much each sample moves the polynomial's value at `t`: d value / d sample, the weights held.
+std::vector<double> influences(const std::vector<Sample1>& samples, const PolynomialFit& fit, int degree,
+                               double t);
 
 }  // namespace lightstripe

@@ -42,12 +42,20 @@ Vector2d normal_of(const std::vector<Vector2d>& curve, std::size_t i) {
   return {-along.y(), along.x()};
 }
 
+/// The noise of a profile's points.
+struct PointNoise {
+  double sigma_mm = 0, correlation_mm = 0;
+};
+
+/// Residuals + 2 sigma^2 (parameters spent on noise), Mallows' Cp.
 double mallows(const std::vector<Vector2d>& points, const std::vector<double>& arc,
-               const std::vector<double>& strengths, double sigma) {
+               const std::vector<double>& strengths, const PointNoise& noise) {
   const std::vector<Vector2d> curve = smoothed(points, SmoothingSpline(arc, strengths));
   double squares = 0;
   for (std::size_t i = 0; i < points.size(); ++i) squares += (points[i] - curve[i]).squaredNorm();
-  return squares + 2 * sigma * sigma * spent_parameters(arc, strengths);
+  const double spent = noise.correlation_mm > 0 ? spent_on_shared_errors(arc, strengths, noise.correlation_mm)
+                                                : spent_parameters(arc, strengths);
+  return squares + 2 * noise.sigma_mm * noise.sigma_mm * spent;
 }
 
 constexpr double kSoftest = 1e-9, kStiffest = 1e5;  // mm^5; a wave of 30 mm passes the stiffest by half
@@ -59,12 +67,12 @@ std::vector<double> scaled(const std::vector<double>& shape, double factor) {
   return out;
 }
 
-/// The strengths' factor between two with the least residuals + 2 sigma^2 (parameters spent), Mallows' Cp.
+/// The strengths' factor between two that Mallows' criterion likes best.
 double best_factor(const std::vector<Vector2d>& points, const std::vector<double>& arc,
-                   const std::vector<double>& shape, double sigma, double from, double to) {
+                   const std::vector<double>& shape, const PointNoise& noise, double from, double to) {
   double best = from, best_cost = 1e300;
   for (double factor = from; factor <= to * 1.01; factor *= kFactorStep)
-    if (const double cost = mallows(points, arc, scaled(shape, factor), sigma); cost < best_cost)
+    if (const double cost = mallows(points, arc, scaled(shape, factor), noise); cost < best_cost)
       best_cost = cost, best = factor;
   return best;
 }
@@ -176,7 +184,8 @@ RunningSurface RunningSurface::measured(const std::vector<Vector2d>& raw, const 
   for (int round = 0; round < 2; ++round) {
     out.arc_mm_ = arc_lengths(out.curve_);
     const std::vector<double> shape = stiffness(points, out.arc_mm_);
-    out.factor_ = best_factor(points, out.arc_mm_, shape, sigma, kSoftest, kStiffest);
+    out.factor_ =
+        best_factor(points, out.arc_mm_, shape, {sigma, options.correlation_mm}, kSoftest, kStiffest);
     strengths = scaled(shape, out.factor_);
     out.curve_ = smoothed(points, SmoothingSpline(out.arc_mm_, strengths));
   }
@@ -204,8 +213,8 @@ HeightTable RunningSurface::redrawn(Random& random) const {
     points[i] += last * normal_of(curve_, i);
   }
   const std::vector<double> shape = stiffness(points, arc_mm_);
-  const double factor =
-      best_factor(points, arc_mm_, shape, sigma_mm_, factor_ / kAbout, std::min(kStiffest, factor_ * kAbout));
+  const double factor = best_factor(points, arc_mm_, shape, {sigma_mm_, correlation_mm_}, factor_ / kAbout,
+                                    std::min(kStiffest, factor_ * kAbout));
   const std::vector<Vector2d> curve = smoothed(points, SmoothingSpline(arc_mm_, scaled(shape, factor)));
   HeightTable drawn = tabulate(curve, ascending(curve), table_.step_mm);
   return drawn.height_mm.size() < 8 ? table_ : drawn;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "core/error.h"
 #include "core/robust.h"
@@ -84,6 +85,22 @@ double spent_parameters(const std::vector<double>& places, const std::vector<dou
         (places[std::min(i + 1, n - 1)] - places[i > 0 ? i - 1 : 0]) / (i > 0 && i + 1 < n ? 2 : 1);
     // integral of 1 / (1 + strength spacing omega^6) over the frequencies that the places carry
     trace += std::min(1.0, spacing / 3 * std::pow(strengths[i] * spacing, -1.0 / 6));
+  }
+  return std::min(trace, static_cast<double>(n) - 1);
+}
+
+double spent_on_shared_errors(const std::vector<double>& places, const std::vector<double>& strengths,
+                              double correlation_mm) {
+  using std::numbers::pi;
+  const std::size_t n = places.size();
+  const double spacing = (places.back() - places.front()) / static_cast<double>(n - 1);
+  const double kept = std::exp(-spacing / correlation_mm), shared = (1 + kept) / (1 - kept);
+  double trace = 3 * shared;  // parabolas pass
+  for (std::size_t i = 0; i < n; ++i) {
+    // The noise's spectrum 1 / (1 + reach^2 omega^2) through the spline's 1 / (1 + (width omega)^6): both
+    // limits of their integral are exact.
+    const double reach = spacing * shared / 2, width = std::pow(strengths[i] * spacing, 1.0 / 6);
+    trace += 2 / pi * std::atan(pi / 3 * reach / width);
   }
   return std::min(trace, static_cast<double>(n) - 1);
 }

@@ -25,6 +25,11 @@ class SmoothingSpline {
 /// strength on even endless places.
 double spent_parameters(const std::vector<double>& places, const std::vector<double>& strengths);
 
+/// The same where neighbours share their errors, correlation exp(-distance / correlation_mm): the trace of
+/// smoothing matrix times correlation matrix, which stands in its place in Mallows' Cp.
+double spent_on_shared_errors(const std::vector<double>& places, const std::vector<double>& strengths,
+                              double correlation_mm);
+
 /// The third derivative of values from place i to place i + 3.
 double third_derivative_of(const std::vector<double>& places, const std::vector<double>& values,
                            std::size_t i);

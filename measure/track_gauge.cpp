@@ -103,27 +103,39 @@ RailPair split_rails(const Profile& profile, double between_u) {
   return pair;
 }
 
-Estimate track_gauge(const PlacedSection& left, const PlacedSection& right, const RailOptions& options,
-                     std::optional<double> rig_sigma_mm) {
+TrackPlane find_track_plane(const PlacedSection& left, const PlacedSection& right, const RailOptions& options,
+                            std::optional<double> rig_sigma_mm) {
   constexpr int kRounds = 3;  // the plane turns the crests, they the plane: by 1e-3 of a round before
-  Vector2d across(1, 0);      // from the right rail to the left one
+  TrackPlane track;
+  const auto unknown = [&](std::string reason) {
+    track.gauge = Estimate::unknown(std::move(reason));
+    return track;
+  };
+  Vector2d& across = track.across;
   Crest left_crest, right_crest;
   for (int round = 0; round < kRounds; ++round) {
     const Vector2d up(-across.y(), across.x());
     left_crest = find_crest(left, up), right_crest = find_crest(right, up);
-    if (!left_crest.reason.empty()) return Estimate::unknown("left rail: " + left_crest.reason);
-    if (!right_crest.reason.empty()) return Estimate::unknown("right rail: " + right_crest.reason);
+    if (!left_crest.reason.empty()) return unknown("left rail: " + left_crest.reason);
+    if (!right_crest.reason.empty()) return unknown("right rail: " + right_crest.reason);
     across = (left_crest.in_section - right_crest.in_section).normalized();
   }
   const Vector2d up(-across.y(), across.x());
   const GaugePoint from = find_gauge_point(right, right_crest, across, up, options);
   const GaugePoint to = find_gauge_point(left, left_crest, -across, up, options);
-  if (!to.reason.empty()) return Estimate::unknown("left gauge face " + to.reason);
-  if (!from.reason.empty()) return Estimate::unknown("right gauge face " + from.reason);
-  Estimate gauge{(to.place - from.place).dot(across), std::nullopt, ""};
+  if (!to.reason.empty()) return unknown("left gauge face " + to.reason);
+  if (!from.reason.empty()) return unknown("right gauge face " + from.reason);
+  track.crest = {left_crest.in_section, right_crest.in_section};
+  track.gauge_point = {to.place, from.place};
+  track.gauge = {(to.place - from.place).dot(across), std::nullopt, ""};
   if (rig_sigma_mm)
-    gauge.sigma = std::hypot(std::hypot(from.sigma_mm, to.sigma_mm), std::sqrt(2.0) * *rig_sigma_mm);
-  return gauge;
+    track.gauge.sigma = std::hypot(std::hypot(from.sigma_mm, to.sigma_mm), std::sqrt(2.0) * *rig_sigma_mm);
+  return track;
+}
+
+Estimate track_gauge(const PlacedSection& left, const PlacedSection& right, const RailOptions& options,
+                     std::optional<double> rig_sigma_mm) {
+  return find_track_plane(left, right, options, rig_sigma_mm).gauge;
 }
 
 }  // namespace lightstripe

@@ -3,6 +3,8 @@
 // Two rails in one section: told apart, and the gauge between them.
 #pragma once
 
+#include <Eigen/Core>
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -21,6 +23,18 @@ struct RailPair {
   Profile left, right;  ///< left: +u
 };
 RailPair split_rails(const Profile& profile, double between_u);
+
+/// How a track lies in its section; section coordinates, by side: left, right.
+struct TrackPlane {
+  Estimate gauge;                                         ///< unknown: nothing else is known either
+  Eigen::Vector2d across = Eigen::Vector2d::UnitX();      ///< unit, along the running plane to the left rail
+  std::array<Eigen::Vector2d, 2> crest{}, gauge_point{};  ///< highest points over the plane, and on the faces
+};
+
+/// The running plane is the line through both heads' highest points, whatever the cant. The rest as
+/// track_gauge().
+TrackPlane find_track_plane(const PlacedSection& left, const PlacedSection& right, const RailOptions& options,
+                            std::optional<double> rig_sigma_mm);
 
 /// Distance between the two gauge faces along the running plane (the line through both heads' highest points,
 /// whatever the cant), `options.gauge_point_mm` below it; where metal stands out of a face farther up by more

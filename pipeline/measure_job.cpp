@@ -76,7 +76,8 @@ void warn_of_likeness(const IdentifiedRail& found, std::vector<std::string>& war
 /// Each name that the user requires has to be a column of the table.
 void check_required(const MeasureJob& job) {
   std::vector<std::string> names = estimate_names(job.kind);
-  const auto extras = job.reference.two_rails ? track_extra_names() : extra_names(job.kind);
+  const auto extras =
+      job.reference.two_rails ? track_extra_names(!job.reference.wheelset.empty()) : extra_names(job.kind);
   names.insert(names.end(), extras.begin(), extras.end());
   for (const std::string& name : job.options.required)
     if (std::find(names.begin(), names.end(), name) == names.end())
@@ -94,9 +95,11 @@ std::string why_not_usable(const MeasureJob& job, const MeasureResult& result) {
 
 void guard(const MeasureJob& job) {
   std::vector<fs::path> inputs = job.other_inputs, outputs = job.other_outputs;
-  inputs.insert(inputs.end(), {job.profiles, job.rig, job.reference.nominal, job.reference.baseline,
-                               job.reference.nominal_right});
+  inputs.insert(inputs.end(),
+                {job.profiles, job.rig, job.reference.nominal, job.reference.baseline,
+                 job.reference.nominal_right, job.reference.wheelset, job.reference.wheelset_right});
   if (!job.table.empty()) outputs.insert(outputs.end(), {job.table, job.table.string() + ".run.yaml"});
+  outputs.push_back(job.conicity_table);
   guard_outputs(inputs, outputs);
   if (job.export_folder.empty()) return;
   for (const fs::path& input : inputs) {  // sections are named by their frames
@@ -113,6 +116,8 @@ void guard(const MeasureJob& job) {
 
 MeasureResult prepare(const MeasureJob& job) {
   check_required(job);
+  if (!job.conicity_table.empty() && job.reference.wheelset.empty())
+    throw Error("--conicity", "needs a wheelset", "name its wheels with --wheelset, e.g. S1002");
   std::vector<std::string> warnings;
   MeasureInput input = read_measure_input(job.profiles.string(), job.kind);
   if (!job.rig.empty() && job.kind == ObjectKind::kWheel)
@@ -138,6 +143,7 @@ void write_results(const MeasureJob& job, const MeasureResult& result) {
       write_file(job.table, measurement_table(result.rows, job.kind, result.extra_columns, result.verdicts));
     write_run_record(job.table, "measure", {job.profiles}, effective_options(job));
   }
+  if (!job.conicity_table.empty()) write_file(job.conicity_table, track_conicity_table(result.rows));
   if (!job.export_folder.empty()) export_sections(job, result);
 }
 

@@ -27,6 +27,7 @@ struct MeasureJob {
   MeasureOptions options;
   Limits limits;
   std::filesystem::path table = "measurements.csv";  ///< .csv or .xlsx; empty: not written
+  std::filesystem::path conicity_table{};            ///< of each section's amplitudes; empty: not written
   std::filesystem::path export_folder;               ///< for the registered sections; empty: not written
   SectionFormat export_format = SectionFormat::kMiniProf;
   std::vector<std::filesystem::path> other_inputs, other_outputs;  ///< what else is read and written

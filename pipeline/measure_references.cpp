@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "io/rig_file.h"
 #include "measure/track_gauge.h"
+#include "pipeline/conicity_job.h"
 
 namespace lightstripe {
 namespace {
@@ -23,6 +24,13 @@ Baseline read_baseline(const std::string& file, const ReferenceShape& nominal,
                        const MeasureOptions& options) {
   const MeasureInput earlier = read_measure_input(file, nominal.kind());
   return Baseline(earlier.profiles, nominal, earlier.prior, options.registration, file);
+}
+
+ReferenceWheelset read_wheelset(const ReferenceChoice& choice) {
+  ConicityJob job;
+  const std::string& right = choice.wheelset_right.empty() ? choice.wheelset : choice.wheelset_right;
+  return {{read_rolling_wheel(choice.wheelset, job, {}), read_rolling_wheel(right, job, {})},
+          choice.conicity};
 }
 
 double place_between(const ReferenceChoice& choice, const MeasureInput& input) {
@@ -55,7 +63,10 @@ MeasureReferences::MeasureReferences(const ReferenceChoice& choice, const Measur
       nominal_(read_reference(identified_ ? identified_->name : choice.nominal, input.kind)) {
   if (!choice.two_rails && !choice.nominal_right.empty())
     throw Error("--nominal-right", "is the second of two rails", "add --rails two");
+  if (!choice.two_rails && !choice.wheelset.empty())
+    throw Error("--wheelset", "runs on a track", "add --rails two, or use `lightstripe conicity` for a pair");
   if (choice.two_rails) {
+    if (!choice.wheelset.empty()) wheelset_ = read_wheelset(choice);
     between_u_ = place_between(choice, input);
     if (!choice.nominal_right.empty()) right_ = read_reference(choice.nominal_right, input.kind);
     if (!rig_file.empty()) {
@@ -73,7 +84,9 @@ const ReferenceShape& MeasureReferences::at(double travel) const {
 
 MeasuredFrame MeasureReferences::measure(const Profile& profile, const MeasureInput& input,
                                          const MeasureOptions& options) const {
-  if (between_u_) return measure_track(profile, {nominal_, right(), *between_u_, rig_sigma_mm_}, options);
+  if (between_u_)
+    return measure_track(
+        profile, {nominal_, right(), *between_u_, rig_sigma_mm_, wheelset_ ? &*wheelset_ : nullptr}, options);
   const MeasuredObject object{at(profile.travel), input.prior, input.wheel};
   if (baseline_ && baseline_->at(profile.travel) == nullptr)
     return without_reference(profile, object, options);
@@ -81,7 +94,7 @@ MeasuredFrame MeasureReferences::measure(const Profile& profile, const MeasureIn
 }
 
 std::vector<std::string> MeasureReferences::extra_columns() const {
-  return between_u_ ? track_extra_names() : extra_names(nominal_.kind());
+  return between_u_ ? track_extra_names(wheelset_.has_value()) : extra_names(nominal_.kind());
 }
 
 }  // namespace lightstripe

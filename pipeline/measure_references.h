@@ -20,6 +20,9 @@ struct ReferenceChoice {
   std::string baseline{};  ///< file of an earlier measurement as reference; empty: the nominal itself
   bool two_rails = false;  ///< each section shows both rails of a track
   std::string nominal_right{};  ///< two rails: name or file of the rail at -y; empty: as the other
+  /// Two rails: the wheels, as a ConicityJob names them, whose conicity is wanted; empty: none.
+  std::string wheelset{}, wheelset_right{};
+  ConicityOptions conicity{};  ///< its gauge is not looked at
 };
 
 class MeasureReferences {
@@ -48,6 +51,7 @@ class MeasureReferences {
   std::optional<Baseline> baseline_;
   std::optional<double> between_u_;  ///< two rails: where they part
   std::optional<double> rig_sigma_mm_;
+  std::optional<ReferenceWheelset> wheelset_;
 };
 
 }  // namespace lightstripe

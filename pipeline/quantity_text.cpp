@@ -20,6 +20,8 @@ QuantityText quantity_text(const std::string& name) {
       {"lip", {"Lip", "mm", 3}},
       {"overlap_gap", {"Gap between the sensors", "mm", 3}},
       {"gauge", {"Track gauge", "mm", 2}},
+      {"conicity", {"Equivalent conicity at 3 mm", "", 4}},
+      {"conicity_nonlinearity", {"Conicity at 4 mm less that at 2 mm, per mm", "1/mm", 4}},
       {"flange_height", {"Flange height Sh", "mm", 3}},
       {"flange_thickness", {"Flange thickness Sd", "mm", 3}},
       {"qr", {"Flange slope qR", "mm", 3}},

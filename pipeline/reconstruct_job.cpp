@@ -229,6 +229,9 @@ void refuse_vanished_frames(const Run& run) {
   if (!recording.without_picture().empty())
     throw Error(table, "knows frames that have no picture: " + recording.without_picture().text(),
                 "wait for the recording's end, or take these rows out");
+  if (!recording.losses().empty())
+    throw Error(run.job.scan_file.string(), recording.losses().front(),
+                "complete the recording, or scan what there is without --strict");
   FrameRanges lost;
   for (std::int64_t frame = run.first_frame; frame < run.end_frame; ++frame)
     if (recording.recorded(frame) && !recording.position(frame)) lost.add(frame);

@@ -123,7 +123,8 @@ std::int64_t Recording::key_of(std::int64_t frame) const {
 
 void Recording::look_for_losses() {
   for (const auto& source : sources_)
-    if (source && !source->doubt().empty()) warnings_.push_back(source->name(0) + ": " + source->doubt());
+    if (source && !source->doubt().empty())
+      losses_.push_back(source->file(0).filename().string() + " " + source->doubt());
   std::string starts;
   for (std::size_t s = 0; s < sources_.size(); ++s)
     if (sources_[s])
@@ -145,9 +146,22 @@ void Recording::look_for_losses() {
                     "pictures were "
                     "taken out of the folder, multiply the step",
                     map_.number_step, step_));
-  if (!map_.stamps.empty()) return;
-  for (const std::int64_t frame : frames_of_table())
-    if (frame < map_.first || frame >= map_.end) without_picture_.add(frame);
+  if (!map_.stamps.empty())
+    look_for_lone_stamps();
+  else
+    for (const std::int64_t frame : frames_of_table())
+      if (frame < map_.first || frame >= map_.end) without_picture_.add(frame);
+  warnings_.insert(warnings_.end(), losses_.begin(), losses_.end());
+}
+
+void Recording::look_for_lone_stamps() {
+  const std::vector<std::int64_t> rows = frames_of_table();
+  std::vector<std::int64_t> lone;
+  for (const std::int64_t row : rows)
+    if (!std::binary_search(map_.stamps.begin(), map_.stamps.end(), row)) lone.push_back(row);
+  if (lone.empty() || 2 * lone.size() > rows.size()) return;  // a device that logs in times of its own
+  losses_.push_back(fmt::format("{}: {} of {} time stamps have no picture, the first is {}", table_->string(),
+                                lone.size(), rows.size(), lone.front()));
 }
 
 /// Beyond kCarried mm a 32-bit number errs by more than 0.001 mm. The origin is the middle of all travel or

@@ -47,6 +47,8 @@ class Recording {
   /// What the user should know of the recording before he trusts the result: an encoder that jumps, counters
   /// that start apart, a video that is cut short.
   const std::vector<std::string>& warnings() const { return warnings_; }
+  /// Those of them that speak of frames that are lost: with --strict an error.
+  const std::vector<std::string>& losses() const { return losses_; }
   /// The channel in which a sensor's pictures are read; nothing where the scan names none of it.
   std::optional<Channel> channel(int sensor) const;
   /// Frames of the table before the first and behind the last picture.
@@ -68,6 +70,8 @@ class Recording {
   /// What the table calls this frame.
   std::int64_t key_of(std::int64_t frame) const;
   void look_for_losses();
+  /// Rows of the table whose time stamp no picture has, where most have theirs.
+  void look_for_lone_stamps();
 
   const Rig& rig_;
   std::vector<std::unique_ptr<FrameSource>> sources_;  ///< by the rig's sensors; null: not in the scan
@@ -78,7 +82,7 @@ class Recording {
   std::optional<std::filesystem::path> table_;
   TravelReadings readings_;
   std::map<std::int64_t, Rigid3> poses_;
-  std::vector<std::string> warnings_;
+  std::vector<std::string> warnings_, losses_;
   FrameRanges without_picture_;
   Rigid3 posed_from_rig_;  ///< the frame that the poses are of
 };

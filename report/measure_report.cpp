@@ -161,6 +161,20 @@ json section_json(const MeasureReport& report, std::size_t i, const Thumbnails& 
   return {{"row", i}, {"drawings", drawings}, {"pictures", pictures}};
 }
 
+/// Of the drawn sections: tan gamma_e over the amplitude.
+json conicity_json(const MeasureReport& report, const std::set<std::size_t>& shown) {
+  json curves = json::array();
+  for (const std::size_t i : shown) {
+    json amplitudes = json::array(), values = json::array();
+    for (const ConicityRow& at : report.result.rows[i].conicity) {
+      amplitudes.push_back(rounded(at.y_mm, 2));
+      values.push_back(optional_json(at.tan_gamma_e, 4));
+    }
+    if (!amplitudes.empty()) curves.push_back({{"row", i}, {"y", amplitudes}, {"values", values}});
+  }
+  return curves;
+}
+
 json run_out_json(const Estimate& run_out) {
   return {{"value", optional_json(run_out.value, 4)},
           {"sigma", optional_json(run_out.sigma, 4)},
@@ -196,6 +210,7 @@ json report_data(const MeasureReport& report) {
             {"rows", rows_json(report)},
             {"quantities", named},
             {"worst", worst},
+            {"conicity", conicity_json(report, shown)},
             {"sections", sections}};
   if (report.result.run_out)
     data["run_out"] = {{"radial", run_out_json(report.result.run_out->radial)},

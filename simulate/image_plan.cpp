@@ -4,9 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "io/nominal_outlines.h"
 #include "simulate/board_poses.h"
-#include "simulate/scene_world.h"
 
 namespace lightstripe {
 namespace {
@@ -68,8 +66,7 @@ std::string frame_file(int number) { return fmt::format("{:04}.png", number); }
 ImagePlan plan_images(const Scene& scene) {
   ImagePlan plan;
   plan.sensors = make_sensors(scene);
-  if (scene.rail.present()) plan.nominal = read_nominal(scene.rail.profile);
-  if (scene.wheel.present()) plan.nominal = read_nominal(scene.wheel.profile);
+  plan.nominal = nominal_outlines(scene);
   plan_boards(scene, plan);
   plan_motion(scene, plan);
   plan_scan(scene, plan);

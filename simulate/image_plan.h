@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "core/outline.h"
 #include "simulate/optics.h"
 #include "simulate/scene.h"
+#include "simulate/scene_world.h"
 #include "simulate/surfaces.h"
 
 namespace lightstripe {
@@ -28,8 +28,8 @@ struct ImagePlan {
   std::vector<PlannedImage> images;
   std::vector<Rigid3> board_poses;   ///< world_from_board, by the number in the images' names
   std::vector<Rigid3> motion_board;  ///< world_from_board, one entry or none
-  Outline nominal;                   ///< of the rail or the wheel
-  bool still_scan = false;           ///< every frame of the scan sees the same picture
+  NominalOutlines nominal;
+  bool still_scan = false;  ///< every frame of the scan sees the same picture
 
   ImagePlan() = default;
   ImagePlan(ImagePlan&&) = default;

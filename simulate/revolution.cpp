@@ -15,44 +15,46 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-/// A ray seen from the axis: u(s) = u + s du, and the squared distance from the axis A s^2 + 2 B s + C.
+/// A ray seen from the axis: u(s) = u + s du, and the squared distance from the axis A s^2 + 2 B s + C, least
+/// at s = middle.
 struct AxialRay {
   double u, du, A, B, C;
+  double per_u = 1 / du;  ///< infinite: u stays
+  double middle = A > 0 ? -B / A : 0;
 
   double squared_radius(double s) const { return (A * s + 2 * B) * s + C; }
 };
 
-struct Interval {
-  double from, to;
-};
+constexpr double kNever = std::numeric_limits<double>::infinity();
 
-/// Where the ray's u lies between two values, within `limit`; from > to where it never does.
-Interval within(const AxialRay& ray, double u0, double u1, const Interval& limit) {
-  if (ray.du == 0) return ray.u >= u0 && ray.u <= u1 ? limit : Interval{1, 0};
-  const double a = (u0 - ray.u) / ray.du, b = (u1 - ray.u) / ray.du;
-  return {std::max(limit.from, std::min(a, b)), std::min(limit.to, std::max(a, b))};
-}
-
-bool may_meet(const AxialRay& ray, const Revolution::Bounds& bounds, const Interval& limit) {
-  const Interval in = within(ray, bounds.u0, bounds.u1, limit);
-  if (in.from > in.to) return false;
-  const double at_ends = std::max(ray.squared_radius(in.from), ray.squared_radius(in.to));
-  if (at_ends < bounds.r0 * bounds.r0) return false;
-  const double nearest = ray.A > 0 ? std::clamp(-ray.B / ray.A, in.from, in.to) : in.from;
-  return ray.squared_radius(nearest) <= bounds.r1 * bounds.r1;
+/// From where on the ray, before `limit`, may be within the bounds; kNever if it never is.
+double entry(const AxialRay& ray, const Revolution::Bounds& bounds, double limit) {
+  double from = 0, to = limit;
+  if (ray.du != 0) {
+    const double a = (bounds.u0 - ray.u) * ray.per_u, b = (bounds.u1 - ray.u) * ray.per_u;
+    from = std::max(from, std::min(a, b)), to = std::min(to, std::max(a, b));
+  } else if (ray.u < bounds.u0 || ray.u > bounds.u1) {
+    return kNever;
+  }
+  if (!(from <= to)) return kNever;
+  const double at_from = ray.squared_radius(from), outer = bounds.r1 * bounds.r1;
+  if (at_from < bounds.r0 * bounds.r0 && ray.squared_radius(to) < bounds.r0 * bounds.r0) return kNever;
+  if (at_from <= outer) return from;
+  if (ray.squared_radius(std::clamp(ray.middle, from, to)) > outer) return kNever;
+  const double half2 = ray.middle * ray.middle - (ray.C - outer) / ray.A;
+  from = std::max(from, ray.middle - std::sqrt(std::max(0.0, half2)));
+  return from <= to ? from : kNever;
 }
 
 struct PieceHit {
-  double s = std::numeric_limits<double>::infinity();
+  double s = kNever;
   Vector2d normal = Vector2d::Zero();
 };
 
 /// The cone n.(u, r) = n.from, squared: (n_r r)^2 = (k - n_u u)^2 is a quadratic in s.
 void meet_piece(const AxialRay& ray, const Revolution::Piece& piece, PieceHit& nearest) {
   constexpr double kBeyondMm = 1e-7;  // so that no ray slips through between two pieces
-  const Vector2d along = piece.to.position - piece.from.position;
-  const double length = along.norm();
-  const Vector2d n(along.y() / length, -along.x() / length);
+  const Vector2d& n = piece.across;
   const double k0 = n.dot(piece.from.position) - n.x() * ray.u, k1 = -n.x() * ray.du;  // n_r r = k0 + k1 s
   const double nn = n.y() * n.y();
   const double a = nn * ray.A - k1 * k1, b = nn * ray.B - k0 * k1, c = nn * ray.C - k0 * k0;
@@ -63,24 +65,34 @@ void meet_piece(const AxialRay& ray, const Revolution::Piece& piece, PieceHit& n
   for (const double s : std::array<double, 2>{q / a, c / q}) {
     if (!(s > 0) || !(s < nearest.s)) continue;
     const Vector2d met(ray.u + s * ray.du, std::sqrt(std::max(0.0, ray.squared_radius(s))));
-    const double t = (met - piece.from.position).dot(along) / length;
-    if (t < -kBeyondMm || t > length + kBeyondMm) continue;
+    const double t = (met - piece.from.position).dot(piece.along);
+    if (t < -kBeyondMm || t > piece.length_mm + kBeyondMm) continue;
     if (std::abs((met - piece.from.position).dot(n)) > 1e-4) continue;  // on the mirror image, r < 0
-    nearest = {s, (piece.from.normal + t / length * (piece.to.normal - piece.from.normal)).normalized()};
+    nearest = {
+        s, (piece.from.normal + t / piece.length_mm * (piece.to.normal - piece.from.normal)).normalized()};
   }
 }
 
+/// The nearer child first: what it holds hides most of the other.
 void meet_tree(const AxialRay& ray, const Revolution& solid, PieceHit& nearest) {
-  std::array<std::size_t, 64> open{0};
-  for (std::size_t depth = 1; depth > 0;) {
-    const std::size_t node = open[--depth];
-    if (!may_meet(ray, solid.tree[node], {0, nearest.s})) continue;
-    if (node + 1 < solid.num_leaves) {
-      open[depth++] = 2 * node + 1;
-      open[depth++] = 2 * node + 2;
+  struct Open {
+    std::size_t node;
+    double entry;
+  };
+  std::array<Open, 64> open;
+  open[0] = {0, entry(ray, solid.tree[0], kNever)};
+  for (std::size_t depth = open[0].entry < kNever ? 1 : 0; depth > 0;) {
+    const Open here = open[--depth];
+    if (here.entry > nearest.s) continue;
+    if (here.node + 1 < solid.num_leaves) {
+      Open near{2 * here.node + 1, entry(ray, solid.tree[2 * here.node + 1], nearest.s)};
+      Open far{2 * here.node + 2, entry(ray, solid.tree[2 * here.node + 2], nearest.s)};
+      if (far.entry < near.entry) std::swap(near, far);
+      if (far.entry < kNever) open[depth++] = far;
+      if (near.entry < kNever) open[depth++] = near;
       continue;
     }
-    const std::size_t first = (node + 1 - solid.num_leaves) * Revolution::kLeafPieces;
+    const std::size_t first = (here.node + 1 - solid.num_leaves) * Revolution::kLeafPieces;
     const std::size_t end = std::min(first + Revolution::kLeafPieces, solid.pieces.size());
     for (std::size_t i = first; i < end; ++i) meet_piece(ray, solid.pieces[i], nearest);
   }
@@ -126,7 +138,12 @@ Revolution make_revolution(const Rigid3& world_from_solid, const Outline& sectio
       const double t = static_cast<double>(i) / parts;
       return SectionNode{point_at(segment, t) + lift, normal_at(segment, t)};
     };
-    for (int i = 0; i < parts; ++i) solid.pieces.push_back({node(i), node(i + 1)});
+    for (int i = 0; i < parts; ++i) {
+      const SectionNode from = node(i), to = node(i + 1);
+      const double apart = (to.position - from.position).norm();
+      const Vector2d along = (to.position - from.position) / apart;
+      solid.pieces.push_back({from, to, along, {along.y(), -along.x()}, apart});
+    }
   }
   for (const auto& piece : solid.pieces)
     LIGHTSTRIPE_CHECK(piece.from.position.y() > 0, "a section of revolution lies beyond the axis");

@@ -27,6 +27,8 @@ struct Revolution {
 
   struct Piece {
     SectionNode from, to;
+    Eigen::Vector2d along, across;  ///< unit: from one to the other, and outwards
+    double length_mm;
   };
   std::vector<Piece> pieces;
   /// Bounds of the pieces in a binary tree: the children of i are 2 i + 1 and 2 i + 2, its leaves hold

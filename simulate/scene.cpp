@@ -103,6 +103,7 @@ void check_material(const Material& o, const std::string& name, const Rules& rul
 
 void check_materials(const Scene& o, const Rules& rules) {
   check_material(o.rail.material, "rail", rules);
+  check_material(o.other_rail.material, "other_rail", rules);
   check_material(o.wheel.material, "wheel", rules);
   for (const StepsObject& steps : o.steps) check_material(steps.material, "steps", rules);
   for (const SphereObject& sphere : o.spheres) check_material(sphere.material, "spheres", rules);
@@ -132,8 +133,12 @@ void check_plans(const Scene& o, const Rules& rules) {
 }
 
 void check_objects(const Scene& o, const Rules& rules) {
-  for (const auto& wear : {o.rail.vertical_wear_mm, o.rail.side_wear_mm})
-    for (const double end : wear) rules.require(end >= 0, "rail: wear", "must not be negative");
+  for (const RailObject* rail : {&o.rail, &o.other_rail})
+    for (const auto& wear : {rail->vertical_wear_mm, rail->side_wear_mm})
+      for (const double end : wear)
+        rules.require(end >= 0, rail == &o.rail ? "rail: wear" : "other_rail: wear", "must not be negative");
+  rules.require(!o.other_rail.present() || o.rail.present(), "other_rail.profile",
+                "must be none where there is no rail");
   if (o.wheel.present()) {
     rules.require(!o.rail.present(), "rail.profile", "must be none where there is a wheel");
     rules.require(!parallel(o.wheel.axis, Vector3d::UnitZ()), "wheel.axis",
@@ -203,10 +208,8 @@ void Scene::check(const std::string& origin) const {
 Scene read_scene(const std::filesystem::path& path) {
   Scene scene;
   read_yaml(path, scene);
-  const bool outline_file = scene.rail.profile.ends_with(".yaml");
-  if (scene.wheel.profile.ends_with(".yaml"))
-    scene.wheel.profile = (path.parent_path() / scene.wheel.profile).string();
-  if (outline_file) scene.rail.profile = (path.parent_path() / scene.rail.profile).string();
+  for (std::string* profile : {&scene.rail.profile, &scene.other_rail.profile, &scene.wheel.profile})
+    if (profile->ends_with(".yaml")) *profile = (path.parent_path() / *profile).string();
   scene.check(path.string());
   return scene;
 }

@@ -121,6 +121,7 @@ struct Scene {
   ScanPlan scan;
   Reflections reflections;
   RailObject rail;
+  RailObject other_rail{.profile = "none"};  ///< of a track; its truth lies in other_sections.csv
   WheelObject wheel;
   std::vector<StepsObject> steps;
   std::vector<SphereObject> spheres;
@@ -144,6 +145,7 @@ void visit_fields(V&& v, Scene& o) {
   v("scan", o.scan);
   v("reflections", o.reflections);
   v("rail", o.rail);
+  v("other_rail", o.other_rail, "the track's second rail");
   v("wheel", o.wheel);
   v("steps", o.steps);
   v("spheres", o.spheres);

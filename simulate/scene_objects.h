@@ -54,6 +54,12 @@ void visit_fields(V&& v, Material& o) {
   v("glow", o.glow);
 }
 
+/// Which face of a rail's head the wheels' flanges wear.
+enum class WornFace { kLeft, kRight };
+constexpr std::array<EnumName<WornFace>, 2> enum_names(WornFace) {
+  return {{{WornFace::kLeft, "left"}, {WornFace::kRight, "right"}}};
+}
+
 /// An endless rail along x. Wear grows linearly from the first frame to the last; each frame sees one
 /// constant section.
 struct RailObject {
@@ -61,8 +67,9 @@ struct RailObject {
   Eigen::Vector3d top{0.0, 0.0, 0.0};            ///< where the outline's origin (top of rail) stands
   double inclination_deg = 0;                    ///< about x, positive turns the top towards -y
   std::array<double, 2> vertical_wear_mm{0, 0};  ///< at the first and the last frame
-  std::array<double, 2> side_wear_mm{0, 0};      ///< of the gauge face (+y)
-  Material material;
+  std::array<double, 2> side_wear_mm{0, 0};      ///< of the gauge face
+  WornFace gauge_side = WornFace::kLeft;         ///< left: the gauge face looks towards +y; right: to -y
+  Material material = {};
 
   bool present() const { return profile != "none"; }
 };
@@ -73,7 +80,8 @@ void visit_fields(V&& v, RailObject& o) {
   v("top", o.top, "mm, the outline's origin");
   v("inclination_deg", o.inclination_deg, "about x");
   v("vertical_wear_mm", o.vertical_wear_mm, "first frame, last frame");
-  v("side_wear_mm", o.side_wear_mm, "gauge face (+y): first frame, last frame");
+  v("side_wear_mm", o.side_wear_mm, "gauge face: first frame, last frame");
+  v("gauge_side", o.gauge_side, "left: the gauge face looks to +y; right: to -y");
   v("material", o.material);
 }
 

@@ -4,6 +4,7 @@
 
 #include <numbers>
 
+#include "io/nominal_outlines.h"
 #include "simulate/worn_rail.h"
 #include "simulate/worn_wheel.h"
 
@@ -16,6 +17,16 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr double kDegree = std::numbers::pi / 180;
+
+/// u -> -u; closed and counterclockwise as before.
+Outline mirror_image(const Outline& outline) {
+  Outline out = reversed(outline);
+  for (OutlineSegment& segment : out.segments) {
+    for (Vector2d* point : {&segment.from, &segment.to, &segment.center}) point->x() = -point->x();
+    segment.counterclockwise = !segment.counterclockwise;
+  }
+  return out;
+}
 
 Extrusion staircase(const StepsObject& steps) {
   const double half = 0.5 * steps.run_mm * static_cast<double>(steps.heights_mm.size());
@@ -37,21 +48,22 @@ Extrusion cylinder(const CylinderObject& object) {
 
 }  // namespace
 
-RailWear wear_at(const Scene& scene, int frame) {
-  const double share = scene.scan.frames > 1 ? static_cast<double>(frame) / (scene.scan.frames - 1) : 0;
+RailWear wear_at(const RailObject& rail, const ScanPlan& scan, int frame) {
+  const double share = scan.frames > 1 ? static_cast<double>(frame) / (scan.frames - 1) : 0;
   const auto between = [share](const std::array<double, 2>& ends) {
     return ends[0] + share * (ends[1] - ends[0]);
   };
-  return {between(scene.rail.vertical_wear_mm), between(scene.rail.side_wear_mm)};
+  return {between(rail.vertical_wear_mm), between(rail.side_wear_mm)};
 }
 
-Outline rail_outline(const Scene& scene, const Outline& nominal, int frame) {
-  const RailWear wear = wear_at(scene, frame);
-  return worn_rail(nominal, wear.vertical_mm, wear.side_mm);
+Outline rail_outline(const RailObject& rail, const ScanPlan& scan, const Outline& nominal, int frame) {
+  const RailWear wear = wear_at(rail, scan, frame);
+  const Outline worn = worn_rail(nominal, wear.vertical_mm, wear.side_mm);
+  return rail.gauge_side == WornFace::kLeft ? worn : mirror_image(worn);
 }
 
-Rigid3 world_from_rail(const Scene& scene) {
-  return {Quaterniond(AngleAxisd(scene.rail.inclination_deg * kDegree, Vector3d::UnitX())), scene.rail.top};
+Rigid3 world_from_rail(const RailObject& rail) {
+  return {Quaterniond(AngleAxisd(rail.inclination_deg * kDegree, Vector3d::UnitX())), rail.top};
 }
 
 Outline wheel_outline(const Scene& scene, const Outline& nominal) {
@@ -65,13 +77,25 @@ Rigid3 world_from_wheel(const Scene& scene) {
           scene.wheel.center + scene.wheel.eccentricity_mm * up};
 }
 
-World scan_world(const Scene& scene, const Outline& nominal, int frame) {
+NominalOutlines nominal_outlines(const Scene& scene) {
+  NominalOutlines out;
+  if (scene.rail.present()) out.main = read_nominal(scene.rail.profile);
+  if (scene.wheel.present()) out.main = read_nominal(scene.wheel.profile);
+  if (scene.other_rail.present()) out.other_rail = read_nominal(scene.other_rail.profile);
+  return out;
+}
+
+World scan_world(const Scene& scene, const NominalOutlines& nominal, int frame) {
   World world;
-  if (scene.rail.present())
-    world.extrusions.push_back(
-        make_extrusion(world_from_rail(scene), rail_outline(scene, nominal, frame), 0, scene.rail.material));
+  const auto add_rail = [&](const RailObject& rail, const Outline& unworn) {
+    if (rail.present())
+      world.extrusions.push_back(make_extrusion(
+          world_from_rail(rail), rail_outline(rail, scene.scan, unworn, frame), 0, rail.material));
+  };
+  add_rail(scene.rail, nominal.main);
+  add_rail(scene.other_rail, nominal.other_rail);
   if (scene.wheel.present())
-    world.revolutions.push_back(make_revolution(world_from_wheel(scene), wheel_outline(scene, nominal),
+    world.revolutions.push_back(make_revolution(world_from_wheel(scene), wheel_outline(scene, nominal.main),
                                                 scene.wheel.diameter_mm / 2, scene.wheel.material));
   for (const StepsObject& steps : scene.steps) world.extrusions.push_back(staircase(steps));
   for (const CylinderObject& object : scene.cylinders) world.extrusions.push_back(cylinder(object));
@@ -84,10 +108,11 @@ bool same_in_all_frames(const Scene& scene) {
   const bool endless = scene.steps.empty() && scene.spheres.empty() && scene.cylinders.empty();
   if (scene.has_poses()) return false;
   if (scene.wheel.present()) return endless && !scene.ground && scene.wheel.eccentricity_mm == 0;
-  const RailObject& rail = scene.rail;
-  const bool one_section =
-      rail.vertical_wear_mm[0] == rail.vertical_wear_mm[1] && rail.side_wear_mm[0] == rail.side_wear_mm[1];
-  return endless && (one_section || !rail.present());
+  const auto one_section = [](const RailObject& rail) {
+    return !rail.present() || (rail.vertical_wear_mm[0] == rail.vertical_wear_mm[1] &&
+                               rail.side_wear_mm[0] == rail.side_wear_mm[1]);
+  };
+  return endless && one_section(scene.rail) && one_section(scene.other_rail);
 }
 
 }  // namespace lightstripe

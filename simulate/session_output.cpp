@@ -107,9 +107,10 @@ void refuse_foreign_pictures(const fs::path& output_folder, const fs::path& fold
 }  // namespace
 
 std::vector<std::string> session_files() {
-  return {"calibration.yaml", "scan.yaml",          "calib/travel.csv", "scan/travel.csv",
-          "scan/poses.csv",   "truth/stripes.csv",  "truth/rig.yaml",   "truth/scene.yaml",
-          "truth/poses.csv",  "truth/sections.csv", "truth/wear.csv",   "truth/README.md"};
+  return {"calibration.yaml",         "scan.yaml",           "calib/travel.csv", "scan/travel.csv",
+          "scan/poses.csv",           "truth/stripes.csv",   "truth/rig.yaml",   "truth/scene.yaml",
+          "truth/poses.csv",          "truth/sections.csv",  "truth/wear.csv",   "truth/README.md",
+          "truth/other_sections.csv", "truth/other_wear.csv"};
 }
 
 void make_folders(const ImagePlan& plan, const fs::path& output_folder) {

@@ -40,26 +40,28 @@ calibration.yaml made orthogonal to x, y = z cross x. Without a motion calibrati
   Of a wheel: u = position along the axis from the axis' point nearest to the rig's origin (truth/rig.yaml), v = radius, from the
   field side's inner end over tread and flange to the back. None where the rig is led by hand (`scan: sway`).
 - `wear.csv` of a rail: `frame,travel,vertical_wear,side_wear` — how much lower the rail is on its centreline and how far the gauge
-  face (+y) lies further in, both in the rail's own frame. Of a wheel: `frame,travel,flange_height,flange_thickness,qr,tread_wear,
+  face (`rail.gauge_side`) lies further in, both in the rail's own frame. Of a wheel: `frame,travel,flange_height,flange_thickness,qr,tread_wear,
   hollow,rim_width,diameter` of the section by railway practice (datum 70 mm from the back, thickness 10 mm above the datum, qR
   down from 2 mm below the tip); hollow = largest rise of the tread towards the field side; diameter at the datum.
+- `other_sections.csv`, `other_wear.csv`: the same of a track's second rail (`other_rail`).
 )";
 
 struct SectionTables {
   std::string sections, wear;
 };
 
-SectionTables rail_sections(const Scene& scene, const Outline& nominal, const Rigid3& rig_from_world) {
+SectionTables rail_sections(const Scene& scene, const RailObject& rail, const Outline& nominal,
+                            const Rigid3& rig_from_world) {
   SectionTables out{"frame,travel,u,v\n", "frame,travel,vertical_wear,side_wear\n"};
-  const Rigid3 rig_from_rail = rig_from_world * world_from_rail(scene);
+  const Rigid3 rig_from_rail = rig_from_world * world_from_rail(rail);
   for (int frame = 0; frame < scene.scan.frames; ++frame) {
     const double travel = travel_of(scene, frame);
     for (const OutlineSample& point :
-         sample(rail_outline(scene, nominal, frame), scene.scan.truth_spacing_mm)) {
+         sample(rail_outline(rail, scene.scan, nominal, frame), scene.scan.truth_spacing_mm)) {
       const Eigen::Vector3d p = rig_from_rail * Eigen::Vector3d(0, point.position.x(), point.position.y());
       fmt::format_to(std::back_inserter(out.sections), "{},{},{:.6f},{:.6f}\n", frame, travel, p.y(), p.z());
     }
-    const RailWear wear = wear_at(scene, frame);
+    const RailWear wear = wear_at(rail, scene.scan, frame);
     fmt::format_to(std::back_inserter(out.wear), "{},{},{},{}\n", frame, travel, wear.vertical_mm,
                    wear.side_mm);
   }
@@ -134,15 +136,17 @@ void write_poses(const std::filesystem::path& path, const std::vector<NamedPose>
   write_file(path, out);
 }
 
-void write_sections(const std::filesystem::path& folder, const Scene& scene, const Outline& nominal,
+void write_sections(const std::filesystem::path& folder, const Scene& scene, const NominalOutlines& nominal,
                     const Rig& rig, const Rigid3& rig_from_world) {
   if (scene.has_poses()) return;
-  SectionTables tables;
-  if (scene.rail.present()) tables = rail_sections(scene, nominal, rig_from_world);
-  if (scene.wheel.present()) tables = wheel_sections(scene, nominal, rig, rig_from_world);
-  if (tables.sections.empty()) return;
-  write_file(folder / "sections.csv", tables.sections);
-  write_file(folder / "wear.csv", tables.wear);
+  const auto write = [&](const SectionTables& tables, const std::string& prefix) {
+    write_file(folder / (prefix + "sections.csv"), tables.sections);
+    write_file(folder / (prefix + "wear.csv"), tables.wear);
+  };
+  if (scene.rail.present()) write(rail_sections(scene, scene.rail, nominal.main, rig_from_world), "");
+  if (scene.wheel.present()) write(wheel_sections(scene, nominal.main, rig, rig_from_world), "");
+  if (scene.other_rail.present())
+    write(rail_sections(scene, scene.other_rail, nominal.other_rail, rig_from_world), "other_");
 }
 
 void write_truth_readme(const std::filesystem::path& path) { write_file(path, kReadme); }

@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "core/outline.h"
 #include "core/rig.h"
 #include "simulate/exposure.h"
 #include "simulate/scene.h"
+#include "simulate/scene_world.h"
 #include "simulate/stripe_truth.h"
 
 namespace lightstripe {
@@ -32,8 +32,9 @@ std::string stripe_rows(const std::string& image, const std::string& sensor, int
 
 void write_poses(const std::filesystem::path& path, const std::vector<NamedPose>& poses);
 
-/// sections.csv and wear.csv, one section a frame. Without a rail neither is written.
-void write_sections(const std::filesystem::path& folder, const Scene& scene, const Outline& nominal,
+/// sections.csv and wear.csv, one section a frame; of a track's second rail other_sections.csv and
+/// other_wear.csv. Without a rail or a wheel none is written.
+void write_sections(const std::filesystem::path& folder, const Scene& scene, const NominalOutlines& nominal,
                     const Rig& rig, const Rigid3& rig_from_world);
 
 void write_truth_readme(const std::filesystem::path& path);

@@ -46,26 +46,42 @@ void add_row(ImageView<T> image, const StripePoint& p, int reach, std::vector<fl
   ++mean.rows;
 }
 
-/// Where a kernel of `sigma` px along the row sees the profile's centre, from mean.centre; px.
+/// Sums of a profile under a Gaussian and its derivatives.
+struct GaussianSums {
+  double weight = 0, grey = 0;               ///< of the Gaussian, and with the grey values
+  double slope_grey = 0;                     ///< of its first derivative
+  double curvature = 0, curvature_grey = 0;  ///< of its second one
+
+  void add(double distance, double sigma2, double gauss, float value) {
+    const double q = (distance * distance / sigma2 - 1) * gauss, v = value;
+    weight += gauss;
+    grey += gauss * v;
+    slope_grey += distance * gauss * v;
+    curvature += q;
+    curvature_grey += q * v;
+  }
+};
+
+/// Where a kernel of `sigma` px along the row sees the profile's centre, from `centre`; px.
 double aside_at(std::span<const float> profile, double centre, double sigma) {
-  const int reach = static_cast<int>(profile.size() / 2);
-  double first = 0, second = 0, weights = 0, moment = 0;
-  for (int k = -reach; k <= reach; ++k) {
-    const double d = k - centre, g = std::exp(-0.5 * d * d / (sigma * sigma));
-    const double q = d * d / (sigma * sigma) - 1, grey = profile[static_cast<std::size_t>(k + reach)];
-    first += d * g * grey;
-    second += q * g * grey;
-    weights += q * g;
-    moment += g;
-  }
+  const int reach = static_cast<int>(profile.size() / 2),
+            middle = std::clamp(static_cast<int>(centre), -reach, reach);
+  const double sigma2 = sigma * sigma, first = middle - centre;
+  // From pixel to pixel a Gaussian changes by a factor that itself changes by a constant one.
+  const double turn = std::exp(-1 / sigma2), top = std::exp(-0.5 * first * first / sigma2);
+  GaussianSums sums;
+  const auto add_side = [&](int sign, int from) {
+    double gauss = top, factor = std::exp((-sign * first - 0.5) / sigma2);
+    for (int k = 0; std::abs(middle + sign * k) <= reach; ++k, gauss *= factor, factor *= turn)
+      if (k >= from)
+        sums.add(first + sign * k, sigma2, gauss,
+                 profile[static_cast<std::size_t>(middle + sign * k + reach)]);
+  };
+  add_side(1, 0);
+  add_side(-1, 1);
   // The sampled second derivative of a constant must vanish.
-  double mean = 0;
-  for (int k = -reach; k <= reach; ++k) {
-    const double d = k - centre;
-    mean += std::exp(-0.5 * d * d / (sigma * sigma)) * profile[static_cast<std::size_t>(k + reach)];
-  }
-  second -= weights * mean / std::max(moment, 1e-9);
-  return second < 0 ? -first / second : 0.0;
+  const double second = sums.curvature_grey - sums.curvature * sums.grey / std::max(sums.weight, 1e-9);
+  return second < 0 ? -sums.slope_grey / second : 0.0;
 }
 
 /// The shift that one stretch [begin, end) points at, px across the line.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <numbers>
 
@@ -68,9 +69,10 @@ bool bends_at(const LineSet& lines, const LineRange& r, std::size_t i, double si
   const std::size_t middle = std::clamp(i, r.begin + reach, r.end - 1 - reach);
   const StripePoint &a = lines.points[middle - reach], &b = lines.points[middle],
                     &c = lines.points[middle + reach];
-  const double along_x = c.x - a.x, along_y = c.y - a.y, chord = std::hypot(along_x, along_y);
-  const double sagitta = std::abs((b.x - a.x) * along_y - (b.y - a.y) * along_x) / std::max(chord, 1e-9);
-  return 8 * sagitta * 40 * sigma > chord * chord;
+  const double along_x = c.x - a.x, along_y = c.y - a.y, square = along_x * along_x + along_y * along_y;
+  // 8 * sagitta * 40 sigma > chord^2, all of it squared: the sagitta is this product over the chord.
+  const double product = 8 * 40 * sigma * ((b.x - a.x) * along_y - (b.y - a.y) * along_x);
+  return product * product > square * square * square;
 }
 
 /// Each row's centre less the line's, px across the line; rows in order, NaN where one does not follow the
@@ -100,25 +102,38 @@ double collect_offsets(ImageView<T> image, const DerivativeKernels& kernels, con
   return used > 0 ? cosines / used : 1;
 }
 
+/// Of each value, how many follow each other up to it without a gap.
+void count_joined(const std::vector<float>& offsets, std::vector<std::uint32_t>& joined) {
+  joined.resize(offsets.size());
+  std::uint32_t run = 0;
+  for (std::size_t i = 0; i < offsets.size(); ++i) joined[i] = run = offsets[i] == offsets[i] ? run + 1 : 0;
+}
+
+/// The sum of what `values` hold up to `limit`. Four sums, which do not wait for each other.
+double bounded_sum(const std::vector<float>& values, float limit) {
+  std::array<float, 4> sums{};
+  std::size_t i = 0;
+  for (; i + 4 <= values.size(); i += 4)
+    for (std::size_t k = 0; k < 4; ++k) sums[k] += std::min(values[i + k], limit);
+  for (; i < values.size(); ++i) sums[0] += std::min(values[i], limit);
+  return double{sums[0]} + double{sums[1]} + double{sums[2]} + double{sums[3]};
+}
+
 /// A sixth of the mean squared second difference of rows `lag` apart, which bends of the line hardly touch;
 /// single values of more than 16 times the mean count as that much, so that a spot or a crossing does not
 /// decide. -1 for too few rows.
-double second_difference(const std::vector<float>& offsets, std::size_t lag, std::vector<float>& squares) {
+double second_difference(const RowScatterWorkspace& w, std::size_t lag, std::vector<float>& squares) {
+  const std::vector<float>& offsets = w.offsets;
   squares.clear();
-  for (std::size_t i = 0; i + 2 * lag < offsets.size(); ++i) {
-    const float difference = offsets[i + 2 * lag] - 2 * offsets[i + lag] + offsets[i];
-    bool joined = difference == difference;
-    for (std::size_t k = 1; k < 2 * lag; ++k) joined = joined && offsets[i + k] == offsets[i + k];
-    if (joined) squares.push_back(difference * difference * (1.0F / 6));
+  for (std::size_t i = 2 * lag; i < offsets.size(); ++i) {
+    if (w.joined[i] <= 2 * lag) continue;
+    const float difference = offsets[i] - 2 * offsets[i - lag] + offsets[i - 2 * lag];
+    squares.push_back(difference * difference * (1.0F / 6));
   }
   if (squares.size() < kLeastRows) return -1;
-  double mean = std::numeric_limits<double>::max();
-  for (int pass = 0; pass < 3; ++pass) {
-    const double limit = pass == 0 ? mean : 16 * mean;
-    double sum = 0;
-    for (const float s : squares) sum += std::min(double{s}, limit);
-    mean = sum / static_cast<double>(squares.size());
-  }
+  double limit = std::numeric_limits<float>::max(), mean = 0;
+  for (int pass = 0; pass < 3; ++pass, limit = 16 * mean)
+    mean = bounded_sum(squares, static_cast<float>(limit)) / static_cast<double>(squares.size());
   return mean;
 }
 
@@ -240,11 +255,12 @@ template <class T>
 RowDifferences look_at_rows(ImageView<T> image, const DerivativeKernels& kernels, const LineSet& lines,
                             const LineRange& range, RowScatterWorkspace& w) {
   const double cosine = collect_offsets(image, kernels, lines, range, w.offsets);
+  count_joined(w.offsets, w.joined);
   RowDifferences line;
   line.sigma = kernels.sigma;
   line.step = 1 / cosine;
   for (std::size_t k = 0; k < kLags; ++k) {
-    line.seen.at(k) = second_difference(w.offsets, k + 1, w.squares);
+    line.seen.at(k) = second_difference(w, k + 1, w.squares);
     if (!(line.seen.at(k) > 0)) return line;
   }
   line.rows = static_cast<double>(w.squares.size());

@@ -7,7 +7,7 @@ const along = i => travelMoves ? rows.travel[i] : rows.frame[i];
 const alongText = !travelMoves ? 'frame' : data.rotary ? 'angle, \u00b0' : 'travel, mm';
 const placeOf = i => !travelMoves ? '' : data.rotary ? `, angle ${fixed(along(i), 1)}\u00b0` : `, travel ${fixed(along(i), 1)} mm`;
 const fixed = (v, digits) => v === null || v === undefined ? '-' : (Number(v.toFixed(digits)) || 0).toFixed(digits);
-const withUnit = q => q.label + ', ' + q.unit;
+const withUnit = q => q.unit ? q.label + ', ' + q.unit : q.label;
 
 function showHead() {
   at('title').textContent = `${data.object} against ${data.nominal}`;
@@ -44,7 +44,10 @@ function showWorst() {
     element('p', 'No place stands out: no limit is exceeded, and no wear is beyond 0.05 mm and three times its predicted error.', box);
     return;
   }
-  const shown = data.quantities.filter(q => q.known && !/deviation|overlap|radius/.test(q.name)).slice(0, 9);
+  const track = ['vertical_wear', 'side_wear', 'corner45_wear', 'right_vertical_wear', 'right_side_wear', 'right_corner45_wear', 'gauge', 'conicity'];
+  const isTrack = data.quantities.some(q => q.name === 'gauge');
+  const wanted = q => isTrack ? track.includes(q.name) : !/deviation|overlap|radius/.test(q.name);
+  const shown = data.quantities.filter(q => q.known && wanted(q)).slice(0, 9);
   const t = table(box, ['frame', alongText, ...shown.map(withUnit), 'verdict', 'status'], data.worst.map(i => ['', fixed(along(i), 1),
     ...shown.map(q => fixed(q.values[i], q.decimals)), rows.verdict[i], rows.status[i]]));
   data.worst.forEach((i, k) => {
@@ -177,10 +180,26 @@ function showSection(s) {
   });
 }
 
+// One line a drawn section, from the first (blue) to the last (orange).
+function showConicity() {
+  if (!data.conicity.length) return;
+  element('h3', 'Equivalent conicity over the amplitude', at('charts'));
+  const last = Math.max(1, data.conicity.length - 1);
+  const color = k => `hsl(${k / last < 0.5 ? 215 : 25} ${40 + 50 * Math.abs(2 * k / last - 1)}% 50%)`;
+  new Chart(element('canvas', undefined, element('div', undefined, at('charts'), 'chart tall')), {
+    type: 'scatter', data: { datasets: data.conicity.map((c, k) => ({ label: 'frame ' + rows.frame[c.row], showLine: true, pointRadius: 0, pointHitRadius: 4,
+      borderColor: color(k), backgroundColor: color(k), borderWidth: 1.5, data: c.y.map((y, j) => ({ x: y, y: c.values[j] })) })) },
+    options: { animation: false, maintainAspectRatio: false, scales: { x: { title: { display: true, text: 'amplitude, mm' } }, y: { title: { display: true, text: 'tan \u03b3e' } } },
+      plugins: { legend: { position: 'right', labels: { usePointStyle: true, pointStyle: 'line', boxWidth: 20 } },
+        tooltip: { callbacks: { label: c => `${c.dataset.label}: ${fixed(c.raw.y, 4)} at ${fixed(c.raw.x, 1)} mm` } } } }
+  });
+}
+
 showHead();
 showSummary();
 showRunOut();
 showWorst();
 data.quantities.filter(q => q.known > 1).forEach(showChart);
+showConicity();
 data.sections.forEach(showSection);
 document.body.dataset.ready = 'yes';

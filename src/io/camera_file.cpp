@@ -56,6 +56,10 @@ std::string plain_yaml(std::string text) {
   if (text.starts_with("%YAML:")) text[0] = '#';
   for (const std::string tag : {"!!opencv-matrix", "!<tag:yaml.org,2002:opencv-matrix>"})
     for (auto at = text.find(tag); at != std::string::npos; at = text.find(tag)) text.erase(at, tag.size());
+  // `ros2 topic echo` ends each message with a line of its own.
+  const std::size_t last = text.find_last_not_of(" \r\n");
+  if (last != std::string::npos && last >= 3 && text.compare(last - 3, 4, "\n---") == 0)
+    text.resize(last - 2);
   return text;
 }
 
@@ -114,7 +118,7 @@ Camera matrix_camera(const YamlNode& root, const YamlPlace& place) {
   if (model && model->text != "plumb_bob" && model->text != "rational_polynomial")
     throw Error(place.file, "has the distortion model " + model->text,
                 "calibrate with plumb_bob or rational_polynomial, or leave the camera out");
-  const auto K = numbers(given(root, {"camera_matrix", "cameraMatrix", "K", "M1"}, place), place);
+  const auto K = numbers(given(root, {"camera_matrix", "cameraMatrix", "K", "k", "M1"}, place), place);
   if (K.size() != 9)
     throw Error(place.file, "has a camera matrix that is not 3 x 3", "give 9 numbers row by row");
   check_matrix(K, place);
@@ -125,8 +129,8 @@ Camera matrix_camera(const YamlNode& root, const YamlPlace& place) {
   camera.fy = K[4];
   camera.cx = K[2];
   camera.cy = K[5];
-  const YamlNode* distortion = find(
-      root, {"distortion_coefficients", "dist_coeffs", "distCoeffs", "distortionCoefficients", "D", "D1"});
+  const YamlNode* distortion = find(root, {"distortion_coefficients", "dist_coeffs", "distCoeffs",
+                                           "distortionCoefficients", "D", "d", "D1"});
   if (distortion) set_distortion(camera, numbers(*distortion, place), place);
   refuse_fisheye(root, camera, place);
   return camera;
@@ -178,6 +182,33 @@ Camera checked(Camera camera, const std::string& path) {
   return camera;
 }
 
+/// ROS' region of interest and binning: size and matrix are the whole sensor's, the pictures hold the region,
+/// one pixel for a block of the sensor's. Pixel (0, 0) is a centre: a block's centre lies between its pixels.
+Camera of_region(const YamlNode& root, Camera camera, const YamlPlace& place) {
+  const std::string what_to_do = "give what the camera says of the pictures that you use";
+  const int across = std::max(1, number(find(root, {"binning_x"}), place)),
+            down = std::max(1, number(find(root, {"binning_y"}), place));
+  if (const YamlNode* roi = find(root, {"roi"})) {
+    const auto of = [&](std::string_view key) { return number(find(*roi, {key}), place.child("roi")); };
+    const int x = of("x_offset"), y = of("y_offset"), width = of("width"), height = of("height");
+    if (width != 0 || height != 0) {
+      if (x < 0 || y < 0 || width <= 0 || height <= 0 || x > camera.width - width ||
+          y > camera.height - height)
+        throw Error(place.file + ": roi", "does not lie in the picture of the whole sensor", what_to_do);
+      camera.cx -= x, camera.cy -= y;
+      camera.width = width, camera.height = height;
+    }
+  }
+  if (across > camera.width || down > camera.height) {
+    if (across > 1 || down > 1) throw Error(place.file + ": binning_x", "leaves no picture", what_to_do);
+    return camera;
+  }
+  camera.fx /= across, camera.fy /= down;
+  camera.cx = (camera.cx + 0.5) / across - 0.5, camera.cy = (camera.cy + 0.5) / down - 0.5;
+  camera.width /= across, camera.height /= down;
+  return camera;
+}
+
 }  // namespace
 
 Camera read_camera_file(const std::string& path_and_name) {
@@ -190,8 +221,8 @@ Camera read_camera_file(const std::string& path_and_name) {
     throw Error(path, "is OpenCV's XML", "save it as .yaml with cv::FileStorage");
   const YamlNode root = detail::parse_yaml(plain_yaml(text), place);
   if (find(root, {"format"}) && find(root, {"sensors"})) return rig_camera(path, name);
-  if (find(root, {"camera_matrix", "cameraMatrix", "K", "M1"}))
-    return checked(matrix_camera(root, place), path);
+  if (find(root, {"camera_matrix", "cameraMatrix", "K", "k", "M1"}))
+    return of_region(root, checked(matrix_camera(root, place), path), place);
   if (find(root, {"cam0"}) || (!name.empty() && find(root, {name})))
     return checked(kalibr_camera(root, name, place), path);
   throw Error(path, "is no camera file that lightstripe knows",

@@ -205,6 +205,38 @@ FrameMap by_order(std::span<const FrameSource* const> sources, const std::string
   return map;
 }
 
+/// All sources' stamps in order; nothing where the cameras' clocks do not agree on most of them.
+Numbers common_stamps(const std::vector<Numbers>& numbers) {
+  Numbers all;
+  std::size_t most = 0;
+  for (const Numbers& of_source : numbers) {
+    all.insert(all.end(), of_source.begin(), of_source.end());
+    most = std::max(most, of_source.size());
+  }
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  return 2 * all.size() <= 3 * most ? all : Numbers{};
+}
+
+/// One frame for each stamp, with the pictures that have it.
+FrameMap by_stamp(std::span<const FrameSource* const> sources, const std::vector<Numbers>& numbers,
+                  Numbers stamps) {
+  FrameMap map;
+  map.end = static_cast<std::int64_t>(stamps.size());
+  map.index.assign(numbers.size(), std::vector<std::int32_t>(stamps.size(), -1));
+  for (std::size_t s = 0; s < numbers.size(); ++s)
+    for (std::size_t i = 0; i < numbers[s].size(); ++i) {
+      const auto at = std::lower_bound(stamps.begin(), stamps.end(), numbers[s][i]) - stamps.begin();
+      std::int32_t& index = map.index[s][static_cast<std::size_t>(at)];
+      if (index >= 0)
+        map.duplicate_pictures.push_back(sources[s]->name(static_cast<std::int64_t>(i)));
+      else
+        index = static_cast<std::int32_t>(i);
+    }
+  map.stamps = std::move(stamps);
+  return map;
+}
+
 }  // namespace
 
 std::vector<std::int64_t> numbers_in_names(const std::vector<std::string>& names) {
@@ -231,6 +263,9 @@ FrameMap map_frames(std::span<const FrameSource* const> sources, const std::vect
   }
   if (const auto numbering = choose_numbering(*numbers, positions))
     if (!is_time_stamps(*numbers, *numbering, positions)) return by_number(sources, *numbers, *numbering);
+  if (!stamps_of(*numbers, positions).empty())
+    if (Numbers stamps = common_stamps(*numbers); !stamps.empty())
+      return by_stamp(sources, *numbers, std::move(stamps));
   FrameMap map = by_order(sources, subject);
   map.stamps = stamps_of(*numbers, positions);
   map.paired_by_order = differ(*numbers);

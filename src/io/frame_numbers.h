@@ -41,7 +41,8 @@ struct FrameMap {
 /// number is the frame. Several sources of one length without a gap whose numbers begin apart are paired by
 /// order, unless the table fits their numbers better. Numbers too sparse to be running ones (time stamps), or
 /// none, leave the order only: then all sources must have the same size, else an Error naming `subject`;
-/// where the table's numbers span the pictures' they are the stamps. Null sources have no pictures.
+/// where the table's numbers span the pictures' they are the stamps, and pictures of one stamp are one frame
+/// where the cameras' clocks agree. Null sources have no pictures.
 FrameMap map_frames(std::span<const FrameSource* const> sources, const std::vector<std::int64_t>& positions,
                     const std::string& subject);
 

@@ -32,6 +32,9 @@ constexpr int kBuffers = 32;
 constexpr int kSocketBufferBytes = 16 << 20;
 constexpr std::uint64_t kLastShortId = 65535;  // GigE Vision 1 counts blocks 1 .. 65535, then 1 again
 constexpr std::int64_t kMostLost = 1000000;    // a gap that is larger means a camera that began anew
+// Only a frame's first packet carries its number: Aravis gives a frame without one the number that the same
+// buffer had before. This one is written into each buffer that waits.
+constexpr std::uint64_t kNoNumber = ~std::uint64_t{0};
 
 /// From one block's number to the next one's. Frames that wait for packets sent again may come after later
 /// ones: a small step back is one, a large one the counter's begin.
@@ -223,8 +226,7 @@ class AravisCamera : public LiveSource {
                    kSocketBufferBytes, nullptr);
     const auto payload = arv_camera_get_payload(camera_.get(), complaint.slot());
     complaint.check(called_, "read its manual on PayloadSize");
-    for (int i = 0; i < kBuffers; ++i)
-      arv_stream_push_buffer(stream_.get(), arv_buffer_new_allocate(payload));
+    for (int i = 0; i < kBuffers; ++i) give(arv_buffer_new_allocate(payload));
     arv_camera_set_acquisition_mode(camera_.get(), ARV_ACQUISITION_MODE_CONTINUOUS, complaint.slot());
     arv_camera_start_acquisition(camera_.get(), complaint.slot());
     complaint.check(called_, "see that nothing else controls it");
@@ -240,6 +242,11 @@ class AravisCamera : public LiveSource {
     }
     if (buffer == nullptr) return;
     add(buffer);
+    give(buffer);
+  }
+
+  void give(ArvBuffer* buffer) {
+    arv_buffer_set_frame_id(buffer, kNoNumber);
     arv_stream_push_buffer(stream_.get(), buffer);
   }
 
@@ -262,6 +269,7 @@ class AravisCamera : public LiveSource {
     frame.arrived = std::chrono::system_clock::now();
     frame.complete = complete_time(buffer, frame.arrived);
     const std::uint64_t id = arv_buffer_get_frame_id(buffer);
+    if (id == kNoNumber) return;  // the gap before the next one names it
     const std::int64_t step = last_id_ ? frames_between(*last_id_, id) : 1;
     if (step <= 0 && step > -kBuffers) return;  // named as lost when a later one was complete
     add_lost(step, frame);

@@ -4,9 +4,11 @@
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <array>
 #include <map>
 #include <mutex>
 #include <opencv2/videoio.hpp>
+#include <string_view>
 #include <vector>
 
 #include "core/error.h"
@@ -35,9 +37,12 @@ class VideoFrames : public FrameSource {
 
   std::filesystem::path file(std::int64_t) const override { return path_; }
   Channel channel() const override { return channel_; }
-  /// A container's own count may be an estimate, but a whole file is not short of many frames.
+  /// These containers count their frames; others' counts are estimates, but a whole file is not short of
+  /// many.
   std::string doubt() const override {
-    if (stated_ <= size_ + std::max<std::int64_t>(2, size_ / 50)) return {};
+    constexpr std::array<std::string_view, 4> kCounted{".avi", ".mp4", ".mov", ".m4v"};
+    const bool counted = std::ranges::find(kCounted, path_.extension().string()) != kCounted.end();
+    if (stated_ <= size_ + (counted ? 0 : std::max<std::int64_t>(2, size_ / 50))) return {};
     return fmt::format("holds {} frames that can be read, its header says {}: it is cut short or damaged",
                        size_, stated_);
   }

@@ -89,6 +89,32 @@ TEST_F(CameraFile, CameraInfoGoesBothWays) {
   expect_same(read_camera_file(written("ros8.yaml", ros_camera_info_yaml(rational, "gauge"))), rational);
 }
 
+TEST_F(CameraFile, WhatRos2EchoesIsReadWithItsBinningAndRegion) {
+  const std::string echoed =
+      "header:\n  frame_id: cam\nheight: 480\nwidth: 640\ndistortion_model: plumb_bob\n"
+      "d:\n- -0.09\n- 0.11\n- 0.0007\n- -0.0005\n- -0.04\n"
+      "k:\n- 1095.0\n- 0.0\n- 324.0\n- 0.0\n- 1094.0\n- 235.0\n- 0.0\n- 0.0\n- 1.0\n";
+  const std::string whole =
+      echoed +
+      "binning_x: 0\nbinning_y: 0\nroi:\n  x_offset: 0\n  y_offset: 0\n  height: 0\n  width: 0\n---\n";
+  expect_same(read_camera_file(written("echo.yaml", whole)),
+              {640, 480, 1095, 1094, 324, 235, {-0.09, 0.11, 0.0007, -0.0005, -0.04}});
+  const std::string part = echoed +
+                           "binning_x: 2\nbinning_y: 2\nroi:\n  x_offset: 100\n  y_offset: 40\n"
+                           "  height: 400\n  width: 500\n---\n";
+  expect_same(read_camera_file(written("part.yaml", part)),
+              {250, 200, 547.5, 547, 111.75, 97.25, {-0.09, 0.11, 0.0007, -0.0005, -0.04}});
+  // The optical axis may lie outside the region.
+  const std::string corner = echoed + "roi: {x_offset: 400, y_offset: 0, height: 480, width: 240}\n";
+  expect_same(read_camera_file(written("corner.yaml", corner)),
+              {240, 480, 1095, 1094, -76, 235, {-0.09, 0.11, 0.0007, -0.0005, -0.04}});
+  EXPECT_THAT(message_of(written("out.yaml", echoed + "roi: {x_offset: 500, width: 200, height: 9}\n")),
+              HasSubstr("out.yaml: roi: does not lie in the picture"));
+  EXPECT_THAT(message_of(written("bins.yaml", echoed + "binning_x: 641\n")), HasSubstr("leaves no picture"));
+  EXPECT_THAT(message_of(written("two.yaml", whole + "width: 1\n")),
+              HasSubstr("more than one YAML document"));
+}
+
 TEST_F(CameraFile, CamchainsAreReadByCamera) {
   const auto path = written("chain.yaml",
                             "cam0:\n  camera_model: pinhole\n  intrinsics: [461.5, 460.25, 362.5, 246.0]\n"

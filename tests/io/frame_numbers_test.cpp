@@ -147,6 +147,24 @@ TEST(MapFrames, TimeStampsAreLookedUpInTheTable) {
   EXPECT_TRUE(map_of({&source}, {0, 1, 2, 3, 4}).stamps.empty()) << "the table counts frames";
 }
 
+TEST(MapFrames, PicturesOfOneStampAreOneFrameAlsoWhereSomeAreMissing) {
+  const std::vector<std::int64_t> table = {1'700'000'000'000'000'000, 1'700'000'000'041'000'000,
+                                           1'700'000'000'080'000'000, 1'700'000'000'120'000'000};
+  const auto png = [&](std::size_t i) { return std::to_string(table[i]) + ".png"; };
+  const Named gauge({png(0), png(1), png(3)}), field({png(0), png(1), png(2), png(3)});
+  const FrameMap map = map_of({&gauge, &field}, table);
+  EXPECT_EQ(map.stamps, table);
+  EXPECT_FALSE(map.paired_by_order);
+  EXPECT_THAT(map.index[0], ElementsAre(0, 1, -1, 2));
+  EXPECT_THAT(map.index[1], ElementsAre(0, 1, 2, 3));
+  // Clocks that do not agree leave the order.
+  const Named later({"1700000000000000007.png", "1700000000041000007.png", "1700000000080000009.png",
+                     "1700000000119000000.png"});
+  const FrameMap apart = map_of({&field, &later}, table);
+  EXPECT_EQ(apart.end, 4);
+  EXPECT_TRUE(apart.paired_by_order);
+}
+
 TEST(MapFrames, EvenStampsOfAnExactClockAreLookedUpAsWell) {
   const Named source({"1700000000000000000.png", "1700000000040000000.png", "1700000000080000000.png"});
   const std::vector<std::int64_t> table = {1'700'000'000'000'000'000, 1'700'000'000'040'000'000,

@@ -6,26 +6,11 @@
 
 #include <cmath>
 
+#include "chain.h"
 #include "core/random.h"
 
 namespace lightstripe {
 namespace {
-
-using Eigen::Vector2d;
-
-struct Chain {
-  Section section;
-  std::vector<FitPoint> points;
-
-  void add(double place, double residual) {
-    FitPoint point;
-    point.position = Vector2d(place, 0);
-    point.normal = Vector2d::UnitY();
-    point.residual = residual, point.weight = 1, point.index = static_cast<int>(section.size());
-    points.push_back(point);
-    section.push_back({point.position, 0, 0, 0, 1});
-  }
-};
 
 // Each stretch of 8 mm is off by 0.02 as a whole: that is what a stretch errs by.
 TEST(StretchError, IsTheOffsetThatAStretchShares) {
@@ -53,6 +38,25 @@ TEST(CorrelatedPoints, AreThoseOfAnAutoregressiveChain) {
   for (int i = 0; i < 20000; ++i)
     chain.add(0.1 * i, last = a * last + std::sqrt(1 - a * a) * 0.01 * random.gaussian());
   EXPECT_NEAR(correlated_points(chain.section, chain.points), (1 + a) / (1 - a), 1.5);
+}
+
+// Correlation a^lag falls to 1/e over -1 / ln(a) points of 0.1 mm. An offset that a whole chain shares, a
+// tenth of the variance, leaves the length nearly as it is and counts in full in correlated_points().
+TEST(CorrelationLength, IsTheShortPartOnly) {
+  const double a = 0.7, length = -0.1 / std::log(a);
+  for (const double offset : {0.0, 0.0033}) {
+    Chain chain;
+    Random random(6);
+    double last = 0;
+    for (int i = 0; i < 20000; ++i) {
+      last = a * last + std::sqrt(1 - a * a) * 0.01 * random.gaussian();
+      chain.add(0.1 * i, last + (i / 200 % 2 == 0 ? offset : -offset));
+    }
+    EXPECT_NEAR(correlation_length_mm(chain.section, chain.points), length, 0.25 * length) << offset;
+    if (offset > 0) {
+      EXPECT_GT(correlated_points(chain.section, chain.points), 1.5 * (1 + a) / (1 - a));
+    }
+  }
 }
 
 }  // namespace

@@ -15,6 +15,7 @@ namespace lightstripe {
 struct SectionRecipe {
   double spacing_mm = 0.3;
   double noise_mm = 0;
+  double bend_mm = 0, bend_length_mm = 3;  ///< error that neighbours share: sd, length of the Gaussian
   double turn_deg = 0;
   Eigen::Vector2d shift = Eigen::Vector2d::Zero();
   bool right = true, left = true;  ///< what the sensor at +u, at -u sees
@@ -44,14 +45,38 @@ inline Section rail_section(const Outline& rail, const SectionRecipe& recipe) {
   return section;
 }
 
+/// What bends a section of `count` points, across it.
+inline std::vector<double> bend_of(std::size_t count, const SectionRecipe& recipe, Random& random) {
+  std::vector<double> out(count, 0.0);
+  if (recipe.bend_mm <= 0) return out;
+  const int reach = static_cast<int>(3 * recipe.bend_length_mm / recipe.spacing_mm);
+  std::vector<double> kernel, white;
+  double squares = 0;
+  for (int k = -reach; k <= reach; ++k) {
+    const double x = k * recipe.spacing_mm / recipe.bend_length_mm;
+    kernel.push_back(std::exp(-x * x)), squares += kernel.back() * kernel.back();
+  }
+  for (std::size_t i = 0; i < count + kernel.size(); ++i) white.push_back(random.gaussian());
+  for (std::size_t i = 0; i < count; ++i)
+    for (std::size_t k = 0; k < kernel.size(); ++k)
+      out[i] += recipe.bend_mm * kernel[k] * white[i + k] / std::sqrt(squares);
+  return out;
+}
+
 /// A wheel's outline above `lowest_v`.
 inline Section wheel_section(const Outline& wheel, double lowest_v, const SectionRecipe& recipe,
                              bool mirrored = false) {
   Random random(recipe.seed);
   Section section;
-  for (const OutlineSample& point : sample(wheel, recipe.spacing_mm)) {
+  std::vector<OutlineSample> outline;  // pieces shorter than the spacing give too many
+  for (const OutlineSample& point : sample(wheel, recipe.spacing_mm))
+    if (outline.empty() || (point.position - outline.back().position).norm() > 0.9 * recipe.spacing_mm)
+      outline.push_back(point);
+  const std::vector<double> bend = bend_of(outline.size(), recipe, random);
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const OutlineSample& point = outline[i];
     if (point.position.y() < lowest_v) continue;
-    Eigen::Vector2d p = point.position + recipe.noise_mm * random.gaussian() * point.normal;
+    Eigen::Vector2d p = point.position + (bend[i] + recipe.noise_mm * random.gaussian()) * point.normal;
     if (mirrored) p.x() = -p.x();
     section.push_back(
         {Eigen::Rotation2Dd(recipe.turn_deg * std::numbers::pi / 180) * p + recipe.shift, 0, 0, 0, 1});

@@ -92,7 +92,7 @@ TEST(StripeTruth, OnTheRailPointsLieOnItsOutlineAndInTheSheet) {
   const Scene scene;
   const SimulatedSensor sensor = make_sensor(scene.sensors[0]);
   const Outline square = polygon_outline({{-30, 0}, {30, 0}, {30, -60}, {-30, -60}});
-  const World world = scan_world(scene, square, 0);
+  const World world = scan_world(scene, {square, {}}, 0);
   View view = lit_view(sensor, 30);
   view.moved.translation = {12, 0, 0};
   const auto points = trace_stripe(world, view, scene.imaging);
