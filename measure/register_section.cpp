@@ -213,8 +213,6 @@ double fitting_share(const Fit& fit, ObjectKind kind) {
 
 std::string judged(const Fit& fit, const Registration& out, const ReferenceShape& reference,
                    const RegistrationOptions& options) {
-  if (out.view == RegistrationView::kHeadOnly && !options.on_head)
-    return "head only: without web or foot the unworn rail's place is not known";
   if (out.num_points < options.min_fit_points)
     return fmt::format("only {} points on parts that do not wear, {} needed", out.num_points,
                        options.min_fit_points);
@@ -269,6 +267,10 @@ Registration register_section(const Section& section, const ReferenceShape& refe
     (rail ? describe : describe_wheel)(section, fit, prior.upright, out);
   }
   out.reason = judged(fit, out, reference, options);
+  if (out.view == RegistrationView::kHeadOnly && !options.on_head) {
+    out.head_fits = out.num_points >= options.min_fit_points && out.rms_mm <= options.max_fit_rms_mm;
+    out.reason = "head only: without web or foot the unworn rail's place is not known";
+  }
   return out;
 }
 
