@@ -67,7 +67,8 @@ std::string suggestion(const std::string& given, const std::vector<std::string>&
 
 /// "Could not convert: --threads = abc" -> "--threads: 'abc' is no number".
 std::string in_our_words(const CLI::ParseError& error) {
-  const std::string text = error.what(), head = "Could not convert: ";
+  std::string text = error.what();
+  const std::string head = "Could not convert: ";
   const std::size_t equals = text.find(" = ");
   if (!text.starts_with(head) || equals == std::string::npos) return text;
   const std::string value = text.substr(equals + 3);
