@@ -229,6 +229,12 @@ std::string judged(const Fit& fit, const Registration& out, const ReferenceShape
   return "";
 }
 
+/// Whether a head alone surely lies on the reference's: nearly all of it, closely.
+bool head_fits(const Registration& found, std::size_t points) {
+  constexpr double kCloseMm = 0.1, kShare = 0.7;
+  return found.rms_mm <= kCloseMm && found.num_points >= kShare * static_cast<double>(points);
+}
+
 }  // namespace
 
 double Registration::sigma_of(const Vector2d& p, const Vector2d& direction) const {
@@ -268,7 +274,7 @@ Registration register_section(const Section& section, const ReferenceShape& refe
   }
   out.reason = judged(fit, out, reference, options);
   if (out.view == RegistrationView::kHeadOnly && !options.on_head) {
-    out.head_fits = out.num_points >= options.min_fit_points && out.rms_mm <= options.max_fit_rms_mm;
+    out.head_fits = head_fits(out, section.size());
     out.reason = "head only: without web or foot the unworn rail's place is not known";
   }
   return out;
