@@ -10,7 +10,7 @@
 #include <opencv2/core/utility.hpp>
 #include <string>
 
-#include "apps/bench_references.h"
+#include "truth/bench_references.h"
 #include "extraction/extract_stripes.h"
 #include "extraction/workspace.h"
 #include "whole_scenes.h"
