@@ -7,6 +7,7 @@
 #include <span>
 
 #include "core/robust.h"
+#include "extraction/follow/direction_guided_ridge.h"
 
 namespace lightstripe {
 namespace {
@@ -35,7 +36,7 @@ template <class T>
 void add_row(ImageView<T> image, const StripePoint& p, int reach, const ProfileSums& sums,
              MeanProfile& mean) {
   const bool is_row = std::abs(p.normal_x) >= std::abs(p.normal_y);
-  const int x = static_cast<int>(std::floor(p.x + 0.5)), y = static_cast<int>(std::floor(p.y + 0.5));
+  const int x = nearest_pixel(p.x), y = nearest_pixel(p.y);
   const int at = is_row ? x : y, count = is_row ? image.width : image.height;
   if (!image.contains(x, y) || at < reach || at + reach >= count) return;
   const bool forwards = (is_row ? p.normal_x : p.normal_y) >= 0;

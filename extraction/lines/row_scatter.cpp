@@ -10,6 +10,8 @@
 #include <numbers>
 #include <type_traits>
 
+#include "extraction/follow/direction_guided_ridge.h"
+
 namespace lightstripe {
 namespace {
 
@@ -37,7 +39,7 @@ Crossing crossing_at(const StripePoint& p) {
   const bool is_row = std::abs(p.normal_x) >= std::abs(p.normal_y);
   const double across = is_row ? p.normal_x : p.normal_y, along = is_row ? p.normal_y : p.normal_x;
   const double place = is_row ? p.y : p.x, centre = is_row ? p.x : p.y;
-  const int index = static_cast<int>(std::floor(place + 0.5));
+  const int index = nearest_pixel(place);
   // The line goes on in its own direction from the point to the row's middle.
   return {is_row, index, centre - (index - place) * along / across, std::abs(across)};
 }
