@@ -216,8 +216,7 @@ std::optional<typename LineFinder<T>::Followed> LineFinder<T>::at_own_scale(cons
       (much_finer ? search_.tuning.kept_length_of_finer : search_.tuning.kept_length) * length(line);
   take_back(line);
   const std::size_t group = group_for(own, 0.5 * tolerance);
-  auto again =
-      follow(group, static_cast<int>(std::lround(middle.x)), static_cast<int>(std::lround(middle.y)));
+  auto again = follow(group, nearest_pixel(middle.x), nearest_pixel(middle.y));
   if (again && length(*again) >= least) return again;
   if (again) take_back(*again);
   return follow(line.group, x, y);
@@ -242,10 +241,8 @@ bool LineFinder<T>::is_edge(const Followed& line) const {
   const std::size_t step = std::max<std::size_t>(1, line.range.size() / 24);
   std::size_t looked_at = 0, one_sided = 0;
   const auto grey = [&](const StripePoint& p, double aside) {
-    const int x = std::clamp(static_cast<int>(std::lround(p.x + aside * p.normal_x)), 0,
-                             search_.image.width - 1),
-              y = std::clamp(static_cast<int>(std::lround(p.y + aside * p.normal_y)), 0,
-                             search_.image.height - 1);
+    const int x = std::clamp(nearest_pixel(p.x + aside * p.normal_x), 0, search_.image.width - 1),
+              y = std::clamp(nearest_pixel(p.y + aside * p.normal_y), 0, search_.image.height - 1);
     return static_cast<double>(search_.image(x, y));
   };
   for (std::size_t i = line.range.begin; i < line.range.end; i += step) {
@@ -268,8 +265,8 @@ bool LineFinder<T>::runs_beside_another(const Followed& line) const {
     const StripePoint& p = g.lines.points[i];
     ++looked_at;
     for (const double aside : {-1.5, -1.0, -0.5, 0.0, 0.5, 1.0, 1.5}) {
-      const auto x = static_cast<int>(std::lround(p.x + aside * g.kernels->sigma * p.normal_x)),
-                 y = static_cast<int>(std::lround(p.y + aside * g.kernels->sigma * p.normal_y));
+      const auto x = nearest_pixel(p.x + aside * g.kernels->sigma * p.normal_x),
+                 y = nearest_pixel(p.y + aside * g.kernels->sigma * p.normal_y);
       if (!search_.image.contains(x, y)) continue;
       const std::uint16_t label = following_.mask(x, y);
       if (label == ExclusionMask::kFree || label == ExclusionMask::kDead || label >= line.first_label)
@@ -311,8 +308,7 @@ void LineFinder<T>::block(const Followed& line, double sigmas, int finest_level)
   for (std::size_t i = line.range.begin; i < line.range.end; i += step) {
     const StripePoint& p = g.lines.points[i];
     for (double aside = -reach; aside <= reach; aside += 3) {
-      const auto x = static_cast<int>(std::lround(p.x + aside * p.normal_x)),
-                 y = static_cast<int>(std::lround(p.y + aside * p.normal_y));
+      const auto x = nearest_pixel(p.x + aside * p.normal_x), y = nearest_pixel(p.y + aside * p.normal_y);
       if (search_.image.contains(x, y)) blocked(x, y) |= levels;
     }
   }

@@ -14,6 +14,7 @@ namespace lightstripe {
 namespace {
 
 constexpr int kSmallestLevel = 24;     // px, of a binned image's sides
+constexpr double kNoisePixels = 4000;  // of a level that tell its noise, to 2 %
 constexpr double kClearOfNoise = 7;    // standard deviations of the strength
 constexpr double kFaintestHeight = 3;  // grey levels, of a stripe's peak
 constexpr double kMostAlong = 0.4;     // of the curvature across: a dot has 1, a line 0
@@ -172,7 +173,7 @@ void build_pyramid(ImageView<T> image, double noise, ImagePyramid<T>& pyramid) {
       image, noise, pyramid, [](ImageView<T> finer, int, Image<T>& coarser) { halve(finer, coarser); },
       [&](ImageView<T> level, int k) {
         // White noise falls by half from level to level; grain, texture and a codec's noise by less.
-        const int thinning = std::max(1, static_cast<int>(1.0 * level.width * level.height / 16000));
+        const int thinning = std::max(1, static_cast<int>(1.0 * level.width * level.height / kNoisePixels));
         return std::max(noise / (1 << k), estimate_noise(level, thinning).seen);
       });
 }

@@ -8,6 +8,9 @@
 #include <cstdint>
 #include <limits>
 #include <numbers>
+#include <type_traits>
+
+#include "extraction/follow/direction_guided_ridge.h"
 
 namespace lightstripe {
 namespace {
@@ -36,9 +39,23 @@ Crossing crossing_at(const StripePoint& p) {
   const bool is_row = std::abs(p.normal_x) >= std::abs(p.normal_y);
   const double across = is_row ? p.normal_x : p.normal_y, along = is_row ? p.normal_y : p.normal_x;
   const double place = is_row ? p.y : p.x, centre = is_row ? p.x : p.y;
-  const int index = static_cast<int>(std::floor(place + 0.5));
+  const int index = nearest_pixel(place);
   // The line goes on in its own direction from the point to the row's middle.
   return {is_row, index, centre - (index - place) * along / across, std::abs(across)};
+}
+
+/// Of `taps` pixels, `step` elements from one to the next. Four sums, which do not wait for each
+/// other; a step of 1 that the compiler knows makes vectors of them.
+template <class T, class Step>
+float weighted_sum(const T* pixel, Step step, const float* weights, int taps) {
+  std::array<float, 4> sums{};
+  int k = 0;
+  for (; k + 4 <= taps; k += 4, pixel += 4 * step)
+    for (std::size_t i = 0; i < 4; ++i)
+      sums[i] +=
+          weights[k + static_cast<int>(i)] * static_cast<float>(pixel[static_cast<std::ptrdiff_t>(i) * step]);
+  for (; k < taps; ++k, pixel += step) sums[0] += weights[k] * static_cast<float>(*pixel);
+  return (sums[0] + sums[1]) + (sums[2] + sums[3]);
 }
 
 /// The centre of one row less that of the line, px along the row, for kernels along the row only.
@@ -53,8 +70,8 @@ double row_offset(ImageView<T> image, const DerivativeKernels& kernels, const Cr
   const int first = at.pixel - kernels.radius;
   float slope = 0;
   if (first >= 0 && first + kernels.taps <= count) {
-    const T* pixel = line + first * step;
-    for (int k = 0; k < kernels.taps; ++k, pixel += step) slope += weights[k] * static_cast<float>(*pixel);
+    slope = step == 1 ? weighted_sum(line + first, std::integral_constant<int, 1>(), weights, kernels.taps)
+                      : weighted_sum(line + first * step, step, weights, kernels.taps);
   } else {
     for (int k = 0; k < kernels.taps; ++k)
       slope += weights[k] * static_cast<float>(line[std::clamp(first + k, 0, count - 1) * step]);
