@@ -153,6 +153,7 @@ void describe(const Section& section, const Fit& fit, bool upright, Registration
   out.rms_mm = equations.weight > 0 ? std::sqrt(equations.squares / equations.weight) : 0.0;
   out.correlated_points = correlated_points(section, fit.points);
   out.correlation_mm = correlation_length_mm(section, fit.points);
+  out.error = error_along(section, fit.points);
   out.stretch_error_mm = stretch_error_mm(section, fit.points);
   const double variance = kTukeyVariance * out.rms_mm * out.rms_mm * out.correlated_points;
   out.covariance.setZero();
@@ -167,7 +168,6 @@ void describe(const Section& section, const Fit& fit, bool upright, Registration
 /// The same of a wheel, whose few unworn stretches may be off as a whole.
 void describe_wheel(const Section& section, const Fit& fit, bool upright, Registration& out) {
   describe(section, fit, upright, out);
-  out.error = error_along(section, fit.points);
   if (out.covariance.isZero()) return;
   const Matrix3d noise = gradient_covariance(out.error, section, fit.points);
   const Matrix3d H = normal_equations(fit.points).H;

@@ -68,14 +68,16 @@ SurfaceFit fit_surface(const PlacedSection& placed, const SurfaceProbe& probe) {
   SurfaceFit out;
   const Vector2d left(-probe.outwards.y(), probe.outwards.x());
   std::vector<Sample1> differences;
+  std::vector<PlaceOnStripe> places;
   for (std::size_t i = 0; i < placed.points.size(); ++i) {
     const Vector2d& p = placed.points[i];
     const Vector2d from_origin = p - probe.origin;
     const double across = from_origin.dot(left), along = from_origin.dot(probe.outwards);
     if (across < probe.from_mm || across > probe.to_mm || std::abs(along) > probe.reach_mm) continue;
     const auto surface = placed.reference.surface_along(probe.origin, probe.outwards, across);
-    if (surface && std::abs(*surface - along) < kMostWearMm)
-      differences.push_back({across, *surface - along, placed.section[i].weight});
+    if (!surface || std::abs(*surface - along) >= kMostWearMm) continue;
+    differences.push_back({across, *surface - along, placed.section[i].weight});
+    places.push_back({across, placed.section[i].chain});
   }
   out.reason = hole_in(differences, probe);
   const auto here = placed.reference.surface_along(probe.origin, probe.outwards, 0);
@@ -93,8 +95,15 @@ SurfaceFit fit_surface(const PlacedSection& placed, const SurfaceProbe& probe) {
   out.slope = (*after - *before) / (2 * kDerivativeMm) - fit->slope;
   out.rms_mm = fit->rms;
   out.num_points = fit->num_samples;
-  const double stretch = std::max(placed.registration.stretch_error_mm, predicted_error(placed, probe));
-  out.local_sigma_mm = std::hypot(fit->rms * std::sqrt(fit->value_factor), stretch);
+  // Across a slope the errors, which are normal to the surface, and the places along it are longer.
+  const double steep = std::hypot(1, out.slope);
+  for (PlaceOnStripe& place : places) place.along_mm *= steep;
+  const ErrorAlong error =
+      where_points_scatter(placed.registration.error, fit->rms / steep, fit->num_samples);
+  out.local_sigma_mm = steep * sigma_of_sum(error, places, influences(differences, *fit, probe.degree, 0));
+  const double predicted = predicted_error(placed, probe);
+  if (predicted > std::hypot(error.own_mm, error.shared_mm))
+    out.local_sigma_mm = std::max(out.local_sigma_mm, predicted);
   out.place = probe.origin + out.along_mm * probe.outwards;
   out.response = probe.outwards - out.slope * left;
   return out;
