@@ -36,8 +36,7 @@ std::string hole_in(std::vector<Sample1> samples, const SurfaceProbe& probe) {
   return probe.to_mm - last > widest ? "hole in the section" : "";
 }
 
-/// The best quarter of the points' own predicted errors in the probe: glare over all of it is an error that
-/// its points share.
+/// The best quarter of the points' own predicted errors in the probe, mm; 0: not known.
 double predicted_error(const PlacedSection& placed, const SurfaceProbe& probe) {
   const Vector2d left(-probe.outwards.y(), probe.outwards.x());
   std::vector<double> sigmas;
@@ -50,6 +49,17 @@ double predicted_error(const PlacedSection& placed, const SurfaceProbe& probe) {
   }
   if (sigmas.empty()) return 0;
   return value_at_rank(sigmas, sigmas.size() / 4);
+}
+
+/// The error of points whose own predicted one is not that of the points that the registration rests on: a
+/// face that a sensor looks straight at is better known than the web that it sees at a glance.
+ErrorAlong as_predicted_here(const Registration& registration, double predicted_mm) {
+  constexpr double kBest = 0.75, kWorst = 2;  // what the calibration bends does not shrink with the noise
+  ErrorAlong error = registration.error;
+  if (!(predicted_mm > 0 && registration.predicted_mm > 0)) return error;
+  const double scale = std::clamp(predicted_mm / registration.predicted_mm, kBest, kWorst);
+  error.own_mm *= scale, error.shared_mm *= scale;
+  return error;
 }
 
 }  // namespace
@@ -98,10 +108,11 @@ SurfaceFit fit_surface(const PlacedSection& placed, const SurfaceProbe& probe) {
   // Across a slope the errors, which are normal to the surface, and the places along it are longer.
   const double steep = std::hypot(1, out.slope);
   for (PlaceOnStripe& place : places) place.along_mm *= steep;
-  const ErrorAlong error =
-      where_points_scatter(placed.registration.error, fit->rms / steep, fit->num_samples);
-  out.local_sigma_mm = steep * sigma_of_sum(error, places, influences(differences, *fit, probe.degree, 0));
   const double predicted = predicted_error(placed, probe);
+  const ErrorAlong error = where_points_scatter(as_predicted_here(placed.registration, predicted),
+                                                fit->rms / steep, fit->num_samples);
+  out.local_sigma_mm = steep * sigma_of_sum(error, places, influences(differences, *fit, probe.degree, 0));
+  // Glare over all of the probe is an error that its points share.
   if (predicted > std::hypot(error.own_mm, error.shared_mm))
     out.local_sigma_mm = std::max(out.local_sigma_mm, predicted);
   out.place = probe.origin + out.along_mm * probe.outwards;
