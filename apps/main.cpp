@@ -67,7 +67,8 @@ std::string suggestion(const std::string& given, const std::vector<std::string>&
 
 /// "Could not convert: --threads = abc" -> "--threads: 'abc' is no number".
 std::string in_our_words(const CLI::ParseError& error) {
-  const std::string text = error.what(), head = "Could not convert: ";
+  std::string text = error.what();
+  const std::string head = "Could not convert: ";
   const std::size_t equals = text.find(" = ");
   if (!text.starts_with(head) || equals == std::string::npos) return text;
   const std::string value = text.substr(equals + 3);
@@ -131,6 +132,12 @@ int run(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ExtrasError&) {
     return unknown_arguments(app);
+  } catch (const CLI::RequiredError& error) {
+    // A mistyped option is told before what it seems to leave out.
+    const auto extras = app.remaining(true);
+    if (!extras.empty() && extras.front().starts_with("-")) return unknown_arguments(app);
+    lightstripe::say_error(in_our_words(error) + "; see " + command_line_help(app));
+    return lightstripe::kExitUsage;
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);
     lightstripe::say_error(in_our_words(error) + "; see " + command_line_help(app));

@@ -16,12 +16,6 @@ namespace {
 
 using std::chrono::steady_clock;
 
-std::size_t terminal_width() {
-  constexpr std::size_t kUsual = 80;
-  winsize size{};
-  return ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 1 ? size.ws_col : kUsual;
-}
-
 class Line {
  public:
   ~Line() {
@@ -48,6 +42,12 @@ class Line {
 };
 
 }  // namespace
+
+std::size_t terminal_width() {
+  constexpr std::size_t kUsual = 80;
+  winsize size{};
+  return ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 1 ? size.ws_col : kUsual;
+}
 
 std::string progress_text(const JobProgress& progress, double seconds) {
   constexpr int kBarWidth = 24;

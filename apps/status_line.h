@@ -5,10 +5,13 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <functional>
 #include <string>
+
+#include "apps/progress.h"
 
 namespace lightstripe {
 
@@ -21,7 +24,9 @@ class StatusLine {
     const auto now = std::chrono::steady_clock::now();
     if (!shown_ || now - last_ < std::chrono::milliseconds(250)) return;
     last_ = now;
-    std::fputs(("\r" + text() + "\x1b[K").c_str(), stderr);
+    std::string line = text();
+    line.resize(std::min(line.size(), terminal_width() - 1));  // a line that wraps is not drawn over
+    std::fputs(("\r" + line + "\x1b[K").c_str(), stderr);
   }
   void clear() const {
     if (shown_) std::fputs("\r\x1b[K", stderr);

@@ -13,11 +13,11 @@
 #include "calib/assess/board_spread.h"
 #include "calib/assess/diagnosis.h"
 #include "calib/assess/given_camera.h"
-#include "calib/assess/tool_pose.h"
 #include "calib/assess/uncertainty.h"
 #include "calib/assess/verdict.h"
 #include "calib/start/choose_lens.h"
 #include "calib/start/initial_values.h"
+#include "calib/start/start_tool.h"
 #include "core/error.h"
 
 namespace lightstripe {
@@ -80,18 +80,27 @@ void take_rig(const SessionViews& session, const JointAdjustment& adjustment,
   for (std::size_t s = 0; s < result.rig.sensors.size(); ++s)
     result.rig.sensors[s].depth_range_mm = depth_range(spreads[s], options);
   result.rig.motion = rig.motion;
+  if (const auto& tool = adjustment.state.tool)
+    result.rig.tool_from_rig = tool->tool_from_first * result.rig.sensors.front().rig_from_camera.inverse();
 }
 
-/// Where the rig sits on the tool, if poses of the tool were given.
-void take_tool(const CalibrationObservations& observations, const SessionViews& session,
-               const JointAdjustment& adjustment, CalibrationResult& result) {
-  if (!observations.tool_poses) return;
-  const HandEye found = find_tool(*observations.tool_poses, session, adjustment);
-  const Rigid3 rig_from_first = result.rig.sensors.front().rig_from_camera;
-  result.rig.tool_from_rig = found.tool_from_first * rig_from_first.inverse();
-  append(result.rig.quality.warnings, found.left_out);
-  result.rig.quality.sigma["tool.rotation_deg"] = found.rotation_sigma_deg;
-  result.rig.quality.sigma["tool.translation_mm"] = found.translation_sigma_mm;
+/// With the tool's poses, if they were given, among the measurements.
+JointAdjustment with_tool(const CalibrationObservations& observations, const SessionViews& session,
+                          const JointAdjustment& adjustment, const CalibrationOptions& options,
+                          CalibrationResult& result) {
+  if (!observations.tool_poses) return adjustment;
+  const ToolPoses start = start_tool(*observations.tool_poses, session, adjustment.state);
+  ToolAdjustment with = adjust_with_tool(session, adjustment, start, options);
+  append(result.rig.quality.warnings, std::move(with.left_out));
+  return std::move(with.adjustment);
+}
+
+void summarise(const SessionViews& session, const JointAdjustment& adjustment, CalibrationResult& result) {
+  result.summary.board_warp_mm = adjustment.state.board_warp_mm;
+  result.summary.iterations = adjustment.iterations;
+  result.summary.views = view_residuals(session, adjustment.residuals);
+  result.summary.stripes = stripe_agreement(session, adjustment);
+  result.rig.quality.sensors = sensor_quality(session, adjustment.residuals);
 }
 
 /// Predicted errors, cross-validation and what else the adjustment tells of itself.
@@ -119,22 +128,20 @@ void calibrate(const CalibrationObservations& observations, const CalibrationOpt
   result.rig.quality.warnings = start.warnings;
 
   result.summary.lenses = lens_choices(start, options);
-  const JointAdjustment adjustment =
+  const JointAdjustment of_pictures =
       adjust_jointly(session, start.state, models_of(result.summary.lenses), options);
-  result.summary.board_warp_mm = adjustment.state.board_warp_mm;
-  result.summary.iterations = adjustment.iterations;
-  result.summary.views = view_residuals(session, adjustment.residuals);
-  result.summary.stripes = stripe_agreement(session, adjustment);
-  result.rig.quality.sensors = sensor_quality(session, adjustment.residuals);
-  const std::vector<BoardSpread> spreads = board_spreads(session, adjustment);
-  refuse_wrong_camera(session, adjustment, result.rig.quality.sensors, options);
-  refuse_bad_adjustment(session, adjustment, result.rig.quality.sensors, spreads);
-  refuse_disagreement(session, adjustment);
-  refuse_wrong_unit(session, adjustment, options);
+  summarise(session, of_pictures, result);
+  const auto& quality_of_sensors = result.rig.quality.sensors;
+  refuse_wrong_camera(session, of_pictures, quality_of_sensors, options);
+  refuse_bad_adjustment(session, of_pictures, quality_of_sensors, board_spreads(session, of_pictures));
+  refuse_disagreement(session, of_pictures);
+  refuse_wrong_unit(session, of_pictures, options);
 
+  const JointAdjustment adjustment = with_tool(observations, session, of_pictures, options, result);
+  summarise(session, adjustment, result);
+  const std::vector<BoardSpread> spreads = board_spreads(session, adjustment);
   take_rig(session, adjustment, spreads, observations.up, options, result);
   assess(session, adjustment, spreads, observations.up, options, result);
-  take_tool(observations, session, adjustment, result);
   refuse_parallel_lasers(session, spreads);
   refuse_extrapolation(session, spreads, options);
   refuse_uncertain_section(adjustment, result.rig.quality.section_shape_sigma_mm);

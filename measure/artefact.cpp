@@ -23,7 +23,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr int kMinPoints = 30, kMinGroups = 4;
-constexpr double kTrim_sigmas = 4;
+constexpr double kTrimSigmas = 4;
 constexpr double kSizeTolerance = 0.2;
 
 /// The points that a shape explains, with the group of each.
@@ -57,7 +57,7 @@ RoundBody refine(const Points3& points, const std::vector<int>& groups, const Ar
     body = fit_round_body(used.points, body, !spec.section);
     for (const Vector3d& p : used.points) distances.push_back(body.distance(p));
     width = round < kWideRounds ? kNarrower * width
-                                : std::min(width, std::max(kTrim_sigmas * sigma_of(distances), 1e-6));
+                                : std::min(width, std::max(kTrimSigmas * sigma_of(distances), 1e-6));
   }
   return body;
 }
@@ -127,7 +127,7 @@ ParallelFaces refine_step(const Points3& points, const std::vector<int>& groups,
     faces = fit_step(used, !spec.section);
     for (std::size_t i = 0; i < used.points.size(); ++i)
       distances.push_back(faces.distance(used.points[i], used.faces[i]));
-    width = std::min(width, std::max(kTrim_sigmas * sigma_of(distances), 1e-6));
+    width = std::min(width, std::max(kTrimSigmas * sigma_of(distances), 1e-6));
   }
   return faces;
 }

@@ -20,7 +20,9 @@ bool is_required(const std::string& name, const MeasureOptions& options) {
 }
 
 std::string status_of(const MeasuredFrame& row, const MeasureOptions& options) {
-  if (!row.registration.usable()) return row.registration.reason;
+  // Of a head alone some quantities are known: whoever needs only those gets them.
+  if (!row.registration.usable() && (options.required.empty() || !row.registration.head_fits))
+    return row.registration.reason;
   for (const NamedEstimate& one : row.estimates)
     if (!one.estimate.value && is_required(one.name, options)) return one.name + ": " + one.estimate.reason;
   for (const NamedEstimate& one : row.extras)

@@ -103,12 +103,24 @@ RailMeasurement unknown_rail(const std::string& reason) {
   return out;
 }
 
+/// A head alone says nothing of wear, but how wide and how round it is.
+RailMeasurement head_alone(const PlacedSection& placed, const RailOptions& options) {
+  RailMeasurement out = unknown_rail(placed.registration.reason);
+  const HeadTop top = find_head_top(placed);
+  out.crown_radius = crown_radius(placed, top);
+  if (options.gauge_height == GaugeHeight::kMeasuredTop)
+    out.head_width =
+        top.reason.empty() ? width_of(placed, top.v - options.gauge_point_mm) : Estimate::unknown(top.reason);
+  return out;
+}
+
 }  // namespace
 
 RailMeasurement measure_rail(const Section& section, const ReferenceShape& reference,
                              const Registration& registration, const RailOptions& options) {
-  if (!registration.usable()) return unknown_rail(registration.reason);
+  if (!registration.usable() && !registration.head_fits) return unknown_rail(registration.reason);
   const PlacedSection placed = place(section, reference, registration);
+  if (!registration.usable()) return head_alone(placed, options);
   const int side = options.gauge_side == GaugeSide::kLeft ? 1 : -1;
   RailMeasurement out;
   out.vertical_wear = wear_of(fit_surface(placed, {{0, reference.top_v()}, {0, 1}, -4, 4, 20, 2}),

@@ -69,7 +69,7 @@ Place find_back(const PlacedSection& placed, const WheelSectionKind& kind) {
     if (std::abs(p.x() - kBackU) < kNearMm && p.y() < placed.reference.top_v() - 19.5 && p.y() > -40)
       back.push_back({p.y(), p.x() - kBackU, weight_of(placed, p)});
   if (static_cast<double>(back.size()) >= kFewest) {
-    const Place seen = place_from(back, 0, kBackU, -mean_of_places(back), placed, "back");
+    Place seen = place_from(back, 0, kBackU, -mean_of_places(back), placed, "back");
     if (seen.known()) return seen;
   }
   return {"", kBackU, placed.registration.sigma_of({kBackU, 0}, {1, 0})};
@@ -135,7 +135,7 @@ bool well_seen(const PlacedSection& placed, const Vector2d& place) {
 /// contradicts them.
 Tip find_tip(const PlacedSection& placed) {
   constexpr double kHalfWidthMm = 5, kSmoothMm = 0.03, kAgreesMm = 0.05, kDerivativeMm = 0.5;
-  const Tip itself = find_tip_itself(placed);
+  Tip itself = find_tip_itself(placed);
   const Vector2d top(placed.reference.top_u(), 0), up(0, 1);
   const SurfaceFit around = fit_surface(placed, {top, up, -kHalfWidthMm, kHalfWidthMm, 60, 2});
   const auto before = placed.reference.surface_along(top, up, kDerivativeMm);

@@ -100,9 +100,9 @@ void ReferenceShape::fill_map() {
   nearest_.assign(cells, -1);
   for (std::size_t i = 0; i < vertices_.size(); ++i) {
     const auto cell = static_cast<std::size_t>(cell_of(vertices_[i]));
+    const auto columns = static_cast<std::size_t>(columns_), row = cell / columns, column = cell % columns;
     const Vector2d middle =
-        corner_ + kCellMm * Vector2d(static_cast<double>(cell % static_cast<std::size_t>(columns_)) + 0.5,
-                                     static_cast<double>(cell / static_cast<std::size_t>(columns_)) + 0.5);
+        corner_ + kCellMm * Vector2d(static_cast<double>(column) + 0.5, static_cast<double>(row) + 0.5);
     const auto distance = static_cast<float>((vertices_[i] - middle).norm());
     if (nearest_[cell] < 0 || distance < distances_[cell])
       distances_[cell] = distance, nearest_[cell] = static_cast<int>(i);

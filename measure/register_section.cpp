@@ -222,8 +222,6 @@ double fitting_share(const Fit& fit, ObjectKind kind) {
 
 std::string judged(const Fit& fit, const Registration& out, const ReferenceShape& reference,
                    const RegistrationOptions& options) {
-  if (out.view == RegistrationView::kHeadOnly && !options.on_head)
-    return "head only: without web or foot the unworn rail's place is not known";
   if (out.num_points < options.min_fit_points)
     return fmt::format("only {} points on parts that do not wear, {} needed", out.num_points,
                        options.min_fit_points);
@@ -238,6 +236,12 @@ std::string judged(const Fit& fit, const Registration& out, const ReferenceShape
   if (!(sigma <= options.max_place_sigma_mm) || out.covariance.isZero())
     return fmt::format("place known to {:.2f} mm only, limit {:.2f}", sigma, options.max_place_sigma_mm);
   return "";
+}
+
+/// Whether a head alone surely lies on the reference's: nearly all of it, closely.
+bool head_fits(const Registration& found, std::size_t points) {
+  constexpr double kCloseMm = 0.1, kShare = 0.7;
+  return found.rms_mm <= kCloseMm && found.num_points >= kShare * static_cast<double>(points);
 }
 
 }  // namespace
@@ -278,6 +282,10 @@ Registration register_section(const Section& section, const ReferenceShape& refe
     (rail ? describe : describe_wheel)(section, fit, prior.upright, out);
   }
   out.reason = judged(fit, out, reference, options);
+  if (out.view == RegistrationView::kHeadOnly && !options.on_head) {
+    out.head_fits = head_fits(out, section.size());
+    out.reason = "head only: without web or foot the unworn rail's place is not known";
+  }
   return out;
 }
 

@@ -69,6 +69,9 @@ struct Registration {
   double predicted_mm = 0;      ///< median of the counting points' own predicted errors; 0: not known
   RegistrationView view = RegistrationView::kNone;
   std::string reason = "not registered";  ///< empty: usable
+  /// Not usable since only the head is seen, which lies on the reference's by its shape: what does not ask
+  /// where it once stood is known.
+  bool head_fits = false;
 
   bool usable() const { return reason.empty(); }
   /// Of the displacement along `direction` (unit) of a point given on the reference, mm.

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "calib/adjust/hand_eye.h"
 
-#include <ceres/autodiff_cost_function.h>
 #include <ceres/loss_function.h>
 #include <ceres/manifold.h>
 #include <ceres/problem.h>
@@ -20,6 +19,7 @@
 
 #include "calib/adjust/parameter_blocks.h"
 #include "calib/adjust/rig_state.h"
+#include "calib/adjust/tool_pose_error.h"
 #include "core/robust.h"
 
 namespace lightstripe {
@@ -32,11 +32,6 @@ using Vector6d = Eigen::Matrix<double, 6, 1>;
 constexpr double kDegree = std::numbers::pi / 180;
 constexpr std::size_t kMinViews = 5;
 
-/// Spread of the poses' errors: rotation (rad) and translation (mm), each component.
-struct Spread {
-  double rotation = 1e-3, translation = 0.5;
-};
-
 struct Block {
   PoseBlock values;
 
@@ -44,41 +39,10 @@ struct Block {
   Rigid3 pose() const { return pose_of(values.data()); }
 };
 
-/// The error of one pose; blocks: tool_from_first, base_from_board.
-struct PoseError {
-  Rigid3 tool_from_base, board_from_first;
-  Spread spread;
-
-  template <class T>
-  bool operator()(const T* tool_from_first, const T* base_from_board, T* residual) const {
-    using Quaternion = Eigen::Quaternion<T>;
-    using Vector = Eigen::Matrix<T, 3, 1>;
-    const Eigen::Map<const Quaternion> qx(tool_from_first), qy(base_from_board);
-    const Eigen::Map<const Vector> tx(tool_from_first + 4), ty(base_from_board + 4);
-    // tool_from_base base_from_board board_from_first first_from_tool, identity without error
-    const Quaternion q_base = tool_from_base.rotation.cast<T>(),
-                     q_first = board_from_first.rotation.cast<T>();
-    const Quaternion q_tool = qx.conjugate();
-    const Vector t_tool = -(q_tool * tx);
-    const Vector in_board = q_first * t_tool + board_from_first.translation.cast<T>();
-    const Vector in_base = qy * in_board + ty;
-    const Vector t = q_base * in_base + tool_from_base.translation.cast<T>();
-    const Quaternion q = q_base * qy * q_first * q_tool;
-    const T sign = q.w() < T(0) ? T(-1) : T(1);
-    for (int i = 0; i < 3; ++i) {
-      residual[i] = T(2) * sign * q.vec()[i] / T(spread.rotation);
-      residual[3 + i] = t[i] / T(spread.translation);
-    }
-    return true;
-  }
-};
-
-using PoseCost = ceres::AutoDiffCostFunction<PoseError, 6, 7, 7>;
-
 Vector6d error_of(const ToolView& view, const Block& tool, const Block& base) {
   Vector6d error;
-  PoseError{view.base_from_tool.inverse(), view.first_from_board.inverse(), {1, 1}}(
-      tool.values.data(), base.values.data(), error.data());
+  ToolPoseError{view.base_from_tool.inverse(), {1, 1}}(Block(view.first_from_board).values.data(),
+                                                       tool.values.data(), base.values.data(), error.data());
   return error;
 }
 
@@ -104,19 +68,22 @@ Rigid3 start_value(const std::vector<ToolView>& views, cv::HandEyeCalibrationMet
   return {Eigen::Quaterniond(rotation).normalized(), {t.at<double>(0), t.at<double>(1), t.at<double>(2)}};
 }
 
-/// Solves with these weights from where the blocks are; returns J^T J of tool_from_first's tangent space
-/// after base_from_board is eliminated.
-Eigen::Matrix<double, 6, 6> solve(const std::vector<ToolView>& views, const std::vector<bool>& used,
-                                  const Spread& spread, bool robust, Block& tool, Block& base) {
+/// Solves with these weights from where the blocks are.
+void solve(const std::vector<ToolView>& views, const std::vector<bool>& used, const ToolSpread& spread,
+           bool robust, Block& tool, Block& base) {
   ceres::Problem problem;
   problem.AddParameterBlock(tool.values.data(), 7, new PoseManifold);
   problem.AddParameterBlock(base.values.data(), 7, new PoseManifold);
-  for (std::size_t i = 0; i < views.size(); ++i)
-    if (used[i])
-      problem.AddResidualBlock(new PoseCost(new PoseError{views[i].base_from_tool.inverse(),
-                                                          views[i].first_from_board.inverse(), spread}),
-                               robust ? new ceres::CauchyLoss(3) : nullptr, tool.values.data(),
-                               base.values.data());
+  std::vector<Block> boards;
+  boards.reserve(views.size());
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    if (!used[i]) continue;
+    double* board = boards.emplace_back(views[i].first_from_board).values.data();
+    problem.AddResidualBlock(
+        new ToolPoseResidual(new ToolPoseError{views[i].base_from_tool.inverse(), spread}),
+        robust ? new ceres::CauchyLoss(3) : nullptr, board, tool.values.data(), base.values.data());
+    problem.SetParameterBlockConstant(board);
+  }
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_QR;
   options.logging_type = ceres::SILENT;
@@ -125,24 +92,11 @@ Eigen::Matrix<double, 6, 6> solve(const std::vector<ToolView>& views, const std:
   options.max_num_iterations = 100;
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);
-  ceres::Problem::EvaluateOptions evaluate;
-  evaluate.parameter_blocks = {tool.values.data(), base.values.data()};
-  evaluate.apply_loss_function = false;
-  ceres::CRSMatrix crs;
-  problem.Evaluate(evaluate, nullptr, nullptr, nullptr, &crs);
-  Eigen::MatrixXd J = Eigen::MatrixXd::Zero(crs.num_rows, crs.num_cols);
-  for (int row = 0; row < crs.num_rows; ++row)
-    for (int k = crs.rows[static_cast<std::size_t>(row)]; k < crs.rows[static_cast<std::size_t>(row) + 1];
-         ++k)
-      J(row, crs.cols[static_cast<std::size_t>(k)]) = crs.values[static_cast<std::size_t>(k)];
-  const Eigen::MatrixXd N = J.transpose() * J;
-  return N.topLeftCorner<6, 6>() -
-         N.topRightCorner<6, 6>() * N.bottomRightCorner<6, 6>().inverse() * N.bottomLeftCorner<6, 6>();
 }
 
 /// Of the components: robust, or rms with the unknowns (12 of 6 n) allowed for.
-Spread spread_of(const std::vector<ToolView>& views, const std::vector<bool>& used, const Block& tool,
-                 const Block& base, bool robust) {
+ToolSpread spread_of(const std::vector<ToolView>& views, const std::vector<bool>& used, const Block& tool,
+                     const Block& base, bool robust) {
   std::vector<double> turns, shifts;
   for (std::size_t i = 0; i < views.size(); ++i) {
     if (!used[i]) continue;
@@ -223,39 +177,28 @@ HandEye find_hand_eye(const std::vector<ToolView>& views) {
   Block tool(best_start(views));
   Block base(views.front().base_from_tool * tool.pose() * views.front().first_from_board);
   std::vector<bool> used(views.size(), true);
-  Spread spread;
+  ToolSpread spread;
   for (int round = 0; round < 3; ++round) {
     solve(views, used, spread, true, tool, base);
     spread = spread_of(views, used, tool, base, true);
   }
-  HandEye result;
   for (std::size_t i = 0; i < views.size(); ++i) {
     const Vector6d e = error_of(views[i], tool, base);
-    const double turn = e.head<3>().norm(), shift = e.tail<3>().norm();
-    used[i] = turn < kOutlier * std::sqrt(3.0) * spread.rotation &&
-              shift < kOutlier * std::sqrt(3.0) * spread.translation;
-    if (!used[i])
-      result.left_out.push_back(
-          fmt::format("{}: the tool's pose is left out, it is {:.2f} degrees and {:.2f} mm off the others'",
-                      views[i].image, turn / kDegree, shift));
+    used[i] = e.head<3>().norm() < kOutlier * std::sqrt(3.0) * spread.rotation &&
+              e.tail<3>().norm() < kOutlier * std::sqrt(3.0) * spread.translation;
   }
   for (int round = 0; round < 2; ++round) {
     solve(views, used, spread, false, tool, base);
     spread = spread_of(views, used, tool, base, false);
   }
-  const auto normal = solve(views, used, spread, false, tool, base);
+  HandEye result;
   result.tool_from_first = tool.pose();
   result.base_from_board = base.pose();
+  result.spread = spread;
   result.rotation_rms_deg = std::sqrt(3.0) * spread.rotation / kDegree;
   result.translation_rms_mm = std::sqrt(3.0) * spread.translation;
   refuse_contradiction(result, static_cast<std::size_t>(std::count(used.begin(), used.end(), true)),
                        views.size());
-  result.covariance = normal.inverse();
-  // The quaternion's tangent space is half the rotation vector.
-  result.covariance.topRows<3>() *= 2;
-  result.covariance.leftCols<3>() *= 2;
-  result.rotation_sigma_deg = std::sqrt(result.covariance.topLeftCorner<3, 3>().trace()) / kDegree;
-  result.translation_sigma_mm = std::sqrt(result.covariance.bottomRightCorner<3, 3>().trace());
   return result;
 }
 

@@ -3,10 +3,10 @@
 // Where the rig sits on a robot's tool: a fixed board seen from known poses of the tool.
 #pragma once
 
-#include <Eigen/Core>
 #include <string>
 #include <vector>
 
+#include "calib/adjust/tool_pose_error.h"
 #include "core/transform.h"
 
 namespace lightstripe {
@@ -22,10 +22,7 @@ struct HandEye {
   Rigid3 tool_from_first, base_from_board;
   double rotation_rms_deg = 0;    ///< of the tool's poses against the board's; length of the rotation vector
   double translation_rms_mm = 0;  ///< length
-  Eigen::Matrix<double, 6, 6> covariance =
-      Eigen::Matrix<double, 6, 6>::Zero();  ///< of tool_from_first: rotation (rad), translation (mm)
-  double rotation_sigma_deg = 0, translation_sigma_mm = 0;  ///< roots of the summed variances
-  std::vector<std::string> left_out;  ///< views that contradict the others, as sentences
+  ToolSpread spread;              ///< of the tool's poses against the board's
 };
 
 /// Starts by cv::calibrateHandEye (Daniilidis 1999, Tsai and Lenz 1989), then minimises rotation and

@@ -6,8 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "calib/adjust/reduced_covariance.h"
-#include "calib/adjust/solve_problem.h"
+#include "calib/adjust/adjustment_rounds.h"
 #include "core/robust.h"
 
 namespace lightstripe {
@@ -42,29 +41,6 @@ std::vector<Residual> list_residuals(const SessionViews& session, const Calibrat
         list.push_back({v, static_cast<int>(p), i, stripe_sigma_px(view.stripes[p][i], options)});
   }
   return list;
-}
-
-/// Stripe points that no ray explains in this state are of no use in the next round.
-void drop_unseen(const SessionViews& session, const RigState& state, std::vector<Residual>& list) {
-  for (auto& residual : list) {
-    if (residual.is_corner() || !residual.used) continue;
-    const auto& view = session.views[residual.view];
-    const auto p = static_cast<std::size_t>(residual.plane);
-    const auto& point = view.stripes[p][residual.index];
-    residual.used = seen_stripe_point(session, state, view, p, {point.x, point.y}).has_value();
-  }
-}
-
-void read_residuals(JointProblem& joint, std::vector<Residual>& list) {
-  ceres::Problem::EvaluateOptions options;
-  options.apply_loss_function = false;
-  std::vector<double> residuals;
-  joint.problem().Evaluate(options, nullptr, &residuals, nullptr, nullptr);
-  auto next = residuals.cbegin();
-  for (auto& residual : list) {
-    if (!residual.used) continue;
-    for (int i = 0; i < residual.dimension(); ++i) residual.residual_px[i] = *next++ * residual.sigma_px;
-  }
 }
 
 double spread_of(std::vector<double> normalised, Spread spread) {
@@ -113,49 +89,12 @@ RigState with_terms_of(const std::vector<LensModel>& lenses, const SessionViews&
   return state;
 }
 
-double redundancy_of(const ceres::Solver::Summary& summary) {
-  return std::max(0.1, 1.0 - static_cast<double>(summary.num_effective_parameters_reduced) /
-                                 summary.num_residuals_reduced);
-}
-
-constexpr double kRoughTolerance = 1e-8, kFinalTolerance = 1e-11;
-
-/// The adjustment while its rounds run.
-struct Rounds {
-  const SessionViews& session;
-  const CalibrationOptions& options;
-  JointAdjustment result;
-  double redundancy = 1;  ///< of the last solve
-
-  /// One round: solves with this loss from the state so far; false where Ceres found no usable step. With
-  /// `covariance` the shared unknowns' covariance is taken at the end.
-  bool solve(ProblemOptions::Loss loss, double tolerance, bool covariance = false) {
-    drop_unseen(session, result.state, result.residuals);
-    JointProblem joint(session, result.state, result.residuals,
-                       {result.lenses, options.board_warp, loss, options.robust_scale});
-    const auto summary = solve_problem(joint, options.max_iterations, tolerance);
-    result.iterations += static_cast<int>(summary.iterations.size());
-    result.converged = summary.termination_type == ceres::CONVERGENCE;
-    if (!summary.IsSolutionUsable()) return false;
-    result.state = joint.state();
-    read_residuals(joint, result.residuals);
-    redundancy = redundancy_of(summary);
-    if (!covariance) return true;
-    result.sigma0 = std::sqrt(2 * summary.final_cost / summary.num_residuals_reduced / redundancy);
-    result.globals = joint.globals();
-    const auto reduced = reduced_covariance(joint);
-    result.covariance = result.sigma0 * result.sigma0 * reduced.covariance;
-    result.condition = reduced.condition;
-    return true;
-  }
-};
-
 }  // namespace
 
 JointAdjustment adjust_jointly(const SessionViews& session, const RigState& start,
                                const std::vector<LensModel>& lenses, const CalibrationOptions& options) {
   using Loss = ProblemOptions::Loss;
-  Rounds rounds{session, options, {}};
+  AdjustmentRounds rounds{session, options, {}};
   auto& residuals = rounds.result.residuals;
   rounds.result.state = with_terms_of(lenses, session, start);
   rounds.result.lenses = lenses;

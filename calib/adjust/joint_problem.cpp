@@ -51,6 +51,7 @@ JointProblem::JointProblem(const SessionViews& session, const RigState& state,
     const auto& view = session.views[residual.view];
     residual.is_corner() ? add_corner(view, residual) : add_stripe_point(view, residual);
   }
+  if (state.tool) add_tool();
   for (const auto& block : globals_)  // behind the corners and points, whose residuals are read in order
     if (block.kind == GlobalBlock::Kind::kIntrinsics && free_terms(block.lens).size() > kWellKnownTerms)
       problem_->AddResidualBlock(new LensPrior(free_terms(block.lens)), nullptr,
@@ -65,7 +66,7 @@ double* JointProblem::store(const std::array<double, Size>& values) {
 }
 
 void JointProblem::store_state(const RigState& state) {
-  std::size_t size = 15 + 7 * state.first_from_board.size();
+  std::size_t size = 29 + 7 * state.first_from_board.size();
   for (const auto& sensor : state.sensors) size += kIntrinsics + 7 + 4 * sensor.laser_planes.size();
   storage_.reserve(size);
   for (const auto& sensor : state.sensors) {
@@ -76,10 +77,15 @@ void JointProblem::store_state(const RigState& state) {
   }
   for (const auto& pose : state.first_from_board) first_from_board_.push_back(store(pose_block_of(pose)));
   warp_ = store(std::array<double, 2>{state.board_warp_mm.x(), state.board_warp_mm.y()});
-  if (!state.motion) return;
-  motion_board_ = store(pose_block_of(state.motion->first_from_board));
-  direction_ = store(block_of(state.motion->direction));
-  axis_point_ = store(block_of(state.motion->axis_point));
+  if (state.motion) {
+    motion_board_ = store(pose_block_of(state.motion->first_from_board));
+    direction_ = store(block_of(state.motion->direction));
+    axis_point_ = store(block_of(state.motion->axis_point));
+  }
+  if (state.tool) {
+    tool_from_first_ = store(pose_block_of(state.tool->tool_from_first));
+    base_from_board_ = store(pose_block_of(state.tool->base_from_board));
+  }
 }
 
 void JointProblem::add_global(GlobalBlock block, double* data, ceres::Manifold* manifold) {
@@ -133,11 +139,28 @@ void JointProblem::add_blocks(const std::vector<Residual>& list) {
     add_constant(warp_, 2);
   }
   add_motion_blocks();
+  if (start_.tool) {
+    add_global({GlobalBlock::Kind::kToolFromFirst}, tool_from_first_, new PoseManifold);
+    add_global({GlobalBlock::Kind::kBaseFromBoard}, base_from_board_, new PoseManifold);
+  }
   for (const auto& residual : list) {
     double* block = pose_block(session_->views[residual.view]);
     if (!residual.used || problem_->HasParameterBlock(block)) continue;
     problem_->AddParameterBlock(block, 7, new PoseManifold);
     pose_blocks_.push_back(block);
+  }
+}
+
+void JointProblem::add_tool() {
+  for (const auto& measured : options_.tool_poses) {
+    double* board = first_from_board_.at(measured.pose);
+    tool_residuals_.push_back(nullptr);
+    if (!problem_->HasParameterBlock(board)) continue;
+    auto* error = new ToolPoseError{measured.base_from_tool.inverse(), options_.tool_spread};
+    tool_residuals_.back() = problem_->AddResidualBlock(
+        new ToolPoseResidual(error),
+        options_.robust_tool ? new ceres::CauchyLoss(options_.robust_scale) : nullptr, board,
+        tool_from_first_, base_from_board_);
   }
 }
 
@@ -214,6 +237,7 @@ RigState JointProblem::state() const {
     result.motion->direction = Eigen::Map<const Eigen::Vector3d>(direction_).normalized();
     result.motion->axis_point = Eigen::Map<const Eigen::Vector3d>(axis_point_);
   }
+  if (result.tool) result.tool = {pose_of(tool_from_first_), pose_of(base_from_board_)};
   return result;
 }
 
@@ -226,6 +250,11 @@ std::vector<double*> JointProblem::blocks() const {
 RigState moved_state(const RigState& state, const std::vector<GlobalBlock>& globals,
                      const Eigen::VectorXd& delta) {
   using Kind = GlobalBlock::Kind;
+  const auto move_pose = [](Rigid3& pose, const double* step) {
+    auto from = pose_block_of(pose), to = from;
+    PoseManifold().Plus(from.data(), step, to.data());
+    pose = pose_of(to.data());
+  };
   RigState result = state;
   for (const auto& block : globals) {
     const double* step = delta.data() + block.column;
@@ -236,9 +265,7 @@ RigState moved_state(const RigState& state, const std::vector<GlobalBlock>& glob
       std::unique_ptr<ceres::Manifold>(intrinsics_manifold(block.lens))->Plus(from.data(), step, to.data());
       sensor.camera = camera_of(sensor.camera, to.data());
     } else if (block.kind == Kind::kCamFromFirst) {
-      auto from = pose_block_of(sensor.cam_from_first), to = from;
-      PoseManifold().Plus(from.data(), step, to.data());
-      sensor.cam_from_first = pose_of(to.data());
+      move_pose(sensor.cam_from_first, step);
     } else if (block.kind == Kind::kLaserPlane) {
       auto& plane = sensor.laser_planes[static_cast<std::size_t>(block.plane)];
       auto from = plane_block_of(plane), to = from;
@@ -246,6 +273,10 @@ RigState moved_state(const RigState& state, const std::vector<GlobalBlock>& glob
       plane = plane_of(to.data());
     } else if (block.kind == Kind::kBoardWarp) {
       result.board_warp_mm += Eigen::Map<const Eigen::Vector2d>(step);
+    } else if (block.kind == Kind::kToolFromFirst) {
+      move_pose(result.tool->tool_from_first, step);
+    } else if (block.kind == Kind::kBaseFromBoard) {
+      move_pose(result.tool->base_from_board, step);
     } else if (block.kind == Kind::kDirection) {
       const auto from = block_of(state.motion->direction);
       ceres::SphereManifold<3>().Plus(from.data(), step, result.motion->direction.data());

@@ -15,6 +15,7 @@
 #include "calib/adjust/lens_model.h"
 #include "calib/adjust/rig_state.h"
 #include "calib/adjust/stripe_crossing.h"
+#include "calib/adjust/tool_pose_error.h"
 
 namespace lightstripe {
 
@@ -35,18 +36,36 @@ struct Residual {
 
 /// Unknowns that all views share; a view's pose is not one of them.
 struct GlobalBlock {
-  enum class Kind { kIntrinsics, kCamFromFirst, kLaserPlane, kBoardWarp, kDirection, kAxisPoint };
+  enum class Kind {
+    kIntrinsics,
+    kCamFromFirst,
+    kLaserPlane,
+    kBoardWarp,
+    kDirection,
+    kAxisPoint,
+    kToolFromFirst,
+    kBaseFromBoard
+  };
   Kind kind = Kind::kIntrinsics;
   int sensor = 0, plane = 0;
   int column = 0, size = 0;  ///< place in the covariance: first column and number of columns (tangent space)
   LensModel lens = LensModel::kAuto;  ///< of kIntrinsics
 };
 
+/// The tool's pose beside one board pose.
+struct ToolMeasurement {
+  std::size_t pose = 0;  ///< of SessionViews::poses
+  Rigid3 base_from_tool;
+};
+
 struct ProblemOptions {
   std::vector<LensModel> lenses;  ///< for each sensor; cameras that are given and fixed keep theirs
   bool board_warp = true;         ///< false: the board keeps the state's warp
   enum class Loss { kSquared, kHuber, kCauchy } loss = Loss::kSquared;
-  double robust_scale = 3;  ///< of the loss, in sigma
+  double robust_scale = 3;                    ///< of the loss, in sigma
+  std::vector<ToolMeasurement> tool_poses{};  ///< of a state that has a tool
+  ToolSpread tool_spread{};
+  bool robust_tool = false;  ///< Cauchy's loss on the tool's poses
 };
 
 /// Owns the unknowns while Ceres works on them. SessionViews that are not `used` are left out; the constants
@@ -68,6 +87,8 @@ class JointProblem {
   std::vector<double*> blocks() const;
   /// The poses' blocks: eliminated first.
   const std::vector<double*>& pose_blocks() const { return pose_blocks_; }
+  /// For each of the options' tool poses; null where no used view shows its board.
+  const std::vector<ceres::ResidualBlockId>& tool_residuals() const { return tool_residuals_; }
 
  private:
   void add_corner(const SessionView& view, const Residual& residual);
@@ -78,6 +99,7 @@ class JointProblem {
   void add_blocks(const std::vector<Residual>& list);
   void add_sensor_blocks(std::size_t sensor);
   void add_motion_blocks();
+  void add_tool();
   void add_constant(double* data, int size);
   void add_global(GlobalBlock block, double* data, ceres::Manifold* manifold);
   double* pose_block(const SessionView& view);
@@ -92,8 +114,10 @@ class JointProblem {
   std::vector<std::vector<double*>> planes_;
   double* warp_ = nullptr;
   double *motion_board_ = nullptr, *direction_ = nullptr, *axis_point_ = nullptr;
+  double *tool_from_first_ = nullptr, *base_from_board_ = nullptr;
   std::vector<GlobalBlock> globals_;
   std::vector<double*> global_blocks_, pose_blocks_;
+  std::vector<ceres::ResidualBlockId> tool_residuals_;
   std::unique_ptr<ceres::Problem> problem_;
 };
 

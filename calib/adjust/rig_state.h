@@ -29,11 +29,17 @@ struct MotionState {
   Eigen::Vector3d axis_point = Eigen::Vector3d::Zero();  ///< rotary
 };
 
+/// The rig on a robot's tool, and the board that stands still in the robot's base.
+struct ToolState {
+  Rigid3 tool_from_first, base_from_board;
+};
+
 struct RigState {
   std::vector<SensorState> sensors;
   std::vector<Rigid3> first_from_board;  ///< for each pose of SessionViews::poses
   std::optional<MotionState> motion;
   Eigen::Vector2d board_warp_mm = Eigen::Vector2d::Zero();  ///< see board_surface.h
+  std::optional<ToolState> tool{};
 };
 
 /// What one image shows. Corners in an order that agrees with the other views of the same pose.

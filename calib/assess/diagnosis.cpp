@@ -28,7 +28,8 @@ std::vector<ResidualSample> residual_samples(const SessionViews& session, const 
 
 std::vector<double> corner_coverage(const SessionViews& session, const JointAdjustment& adjustment) {
   constexpr int kColumns = 8, kRows = 6;
-  std::vector<std::array<bool, kColumns * kRows>> hit(session.sensor_names.size());
+  constexpr std::size_t kCells = std::size_t{kColumns} * kRows;
+  std::vector<std::array<bool, kCells>> hit(session.sensor_names.size());
   for (const auto& m : adjustment.residuals) {
     if (!m.is_corner() || !m.used) continue;
     const auto s = static_cast<std::size_t>(session.views[m.view].sensor);
@@ -40,7 +41,7 @@ std::vector<double> corner_coverage(const SessionViews& session, const JointAdju
   }
   std::vector<double> shares;
   for (const auto& grid : hit)
-    shares.push_back(static_cast<double>(std::count(grid.begin(), grid.end(), true)) / (kColumns * kRows));
+    shares.push_back(static_cast<double>(std::count(grid.begin(), grid.end(), true)) / kCells);
   return shares;
 }
 

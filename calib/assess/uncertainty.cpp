@@ -65,19 +65,35 @@ void add_plane(const JointAdjustment& adjustment, const GlobalBlock& block, cons
   sigmas[name + ".offset_mm"] = std::sqrt(adjustment.covariance(offset, offset));
 }
 
+/// The turn of a pose from its mean: rotation vector, radians, for small angles.
+VectorXd turn_from(const Rigid3& pose, const Eigen::Quaterniond& mean) {
+  return 2 * (pose.rotation * mean.conjugate()).vec();
+}
+
 /// The sensor's pose in the first sensor's frame.
 void add_pose(const JointAdjustment& adjustment, const GlobalBlock& block, const std::string& sensor,
               std::map<std::string, double>& sigmas) {
   const auto s = static_cast<std::size_t>(block.sensor);
   const Eigen::Quaterniond mean = adjustment.state.sensors[s].cam_from_first.rotation;
   const auto rotation = [&](const RigState& state) -> VectorXd {
-    return 2 * (state.sensors[s].cam_from_first.rotation * mean.conjugate()).vec();  // small angles, radians
+    return turn_from(state.sensors[s].cam_from_first, mean);
   };
   const auto position = [&](const RigState& state) -> VectorXd {
     return state.sensors[s].cam_from_first.inverse().translation;
   };
   sigmas[sensor + ".pose.rotation_deg"] = total_sigma(adjustment, rotation) / kDegree;
   sigmas[sensor + ".pose.translation_mm"] = total_sigma(adjustment, position);
+}
+
+/// Where the first sensor sits on the tool.
+void add_tool(const JointAdjustment& adjustment, std::map<std::string, double>& sigmas) {
+  const Eigen::Quaterniond mean = adjustment.state.tool->tool_from_first.rotation;
+  sigmas["tool.rotation_deg"] =
+      total_sigma(adjustment,
+                  [&](const RigState& state) { return turn_from(state.tool->tool_from_first, mean); }) /
+      kDegree;
+  sigmas["tool.translation_mm"] = total_sigma(
+      adjustment, [](const RigState& s) -> VectorXd { return s.tool->tool_from_first.translation; });
 }
 
 /// Of the axis' point nearest to the camera, across the axis: along it no point is marked.
@@ -107,6 +123,7 @@ std::map<std::string, double> parameter_sigmas(const SessionViews& session,
       sigmas["motion.direction_deg"] =
           total_sigma(adjustment, [](const RigState& s) -> VectorXd { return s.motion->direction; }) /
           kDegree;
+    if (block.kind == Kind::kToolFromFirst) add_tool(adjustment, sigmas);
     if (block.kind == Kind::kAxisPoint) sigmas["motion.axis_point_mm"] = axis_sigma_mm(adjustment);
   }
   return sigmas;

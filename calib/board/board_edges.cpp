@@ -23,7 +23,7 @@ double to_tag_edge(double value, const Target& target, int corners) {
   double nearest = std::numeric_limits<double>::infinity();
   const double first = std::floor(value / step);
   for (int i = -1; i <= 1; ++i) {
-    const double begin = std::clamp(first + i, -1.0, static_cast<double>(corners / 2)) * step;
+    const double begin = std::clamp(first + i, -1.0, std::floor(0.5 * corners)) * step;
     nearest = std::min({nearest, std::abs(value - begin), std::abs(value - begin - target.marker_mm)});
   }
   return nearest;

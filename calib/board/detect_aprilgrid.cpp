@@ -151,7 +151,8 @@ BoardDetection detect_aprilgrid(const cv::Mat& gray, const Target& target) {
   result.corners.assign(static_cast<std::size_t>(target.num_corners()), unseen_corner());
   place_corners(tags, *map, target, result.corners);
   refine(gray, target, tags, result.corners);
-  result.found = std::count_if(result.corners.begin(), result.corners.end(), is_seen) >= 4 * kMinTags;
+  result.found =
+      std::count_if(result.corners.begin(), result.corners.end(), is_seen) >= std::ptrdiff_t{4} * kMinTags;
   if (!result.found) {
     result.corners.clear();
     result.reason = "the tags do not lie as in the grid that the session describes";

@@ -13,6 +13,7 @@
 #include "calib/board/detect_charuco.h"
 #include "calib/board/detect_circles.h"
 #include "calib/board/observe_board.h"
+#include "calib/board/other_board.h"
 #include "core/error.h"
 
 namespace lightstripe {
@@ -242,8 +243,10 @@ Located locate(const cv::Mat& gray, int factor, const Target& target) {
       return result;
     }
   }
-  if (!worth_a_closer_look(result, target) && !worth_a_closer_look(coarse, target)) return result;
-  auto by_opencv = locate_by_opencv(shrunk(gray, factor), target);
+  const cv::Mat searched = shrunk(gray, factor);
+  const bool other = !result.grids.empty() && is_other_board(searched, result.grids.front(), target);
+  if (other || (!worth_a_closer_look(result, target) && !worth_a_closer_look(coarse, target))) return result;
+  auto by_opencv = locate_by_opencv(searched, target);
   if (by_opencv && !goes_on(*by_opencv, target, result.saddles))
     result.corners = enlarged(std::move(*by_opencv), factor);
   return result;
@@ -256,7 +259,8 @@ BoardDetection detect_checkerboard(const cv::Mat& gray, const Target& target) {
   BoardDetection result;
   if (located.corners) {
     const Corners corners = refined(gray, *located.corners, target);
-    result.found = in_view(gray, corners) && misfit(corners, target) < kMaxMisfit;
+    result.found = in_view(gray, corners) && misfit(corners, target) < kMaxMisfit &&
+                   has_squares_beyond(gray, corners, target);
     if (result.found) result.corners = in_unique_order(gray, corners, target);
   }
   if (result.found) return result;

@@ -9,7 +9,7 @@ namespace {
 
 /// One of the unshifted kernels as OpenCV wants it (correlation, odd length).
 cv::Mat kernel_row(const DerivativeKernels& kernels, int order) {
-  const float* weights = kernels.phase(0) + order * kernels.pitch;
+  const float* weights = kernels.phase(0) + static_cast<std::ptrdiff_t>(order) * kernels.pitch;
   const int length = 2 * kernels.radius + 1;
   cv::Mat row(1, length, CV_32F);
   for (int i = 0; i < length; ++i) row.at<float>(i) = weights[i];

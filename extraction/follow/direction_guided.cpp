@@ -48,10 +48,10 @@ void follow_both_ways(const RidgeFinder<T>& finder, const RidgePlace& start, Mas
   const LineRange before{lines.points.size(), lines.points.size()};
   labels.first = static_cast<std::uint16_t>(labels.current + 1);
   w.backward.clear();
-  const bool closed = follow_one_way(finder, start, false, w.mask, labels, w.backward);
+  const bool closed = follow_one_way(finder, start, false, 0, w.mask, labels, w.backward);
   lines.points.insert(lines.points.end(), w.backward.rbegin(), w.backward.rend());
   lines.points.push_back(to_stripe_point(start));
-  if (!closed) follow_one_way(finder, start, true, w.mask, labels, lines.points);
+  if (!closed) follow_one_way(finder, start, true, w.backward.size(), w.mask, labels, lines.points);
   const LineRange range{before.begin, lines.points.size()};
   if (range.size() >= kLeastPoints) {
     lines.lines.push_back(range);

@@ -8,9 +8,12 @@
 
 #include "extraction/follow/bridge.h"
 #include "extraction/follow/direction_guided_between.h"
+#include "extraction/follow/follow_tuning.h"
 
 namespace lightstripe {
 namespace {
+
+constexpr const StepTuning& kTuning = kStepTuning;
 
 /// Where following stands.
 struct Tip {
@@ -31,13 +34,15 @@ struct Landing {
 template <class T>
 class Follower {
  public:
-  Follower(const RidgeFinder<T>& finder, ExclusionMask& mask, MaskLabels& labels)
+  /// `length`: points that the line has on the other side of its start.
+  Follower(const RidgeFinder<T>& finder, ExclusionMask& mask, MaskLabels& labels, std::size_t length)
       : finder_(finder),
         limits_(finder.limits),
         mask_(mask),
         labels_(labels),
         previous_(labels.first),
-        stride_(evaluation_stride(finder.kernels.sigma)) {
+        stride_(evaluation_stride(finder.kernels.sigma)),
+        length_before_(static_cast<double>(length)) {
     renew_label();
   }
 
@@ -47,7 +52,7 @@ class Follower {
   /// Marks the pixels across the stripe.
   void mark(const RidgePlace& p) {
     const int bin = 1 << finder_.bin_shift;
-    const double half = 2.1 * finder_.kernels.sigma * bin, middle = 0.5 * (bin - 1);
+    const double half = kTuning.marked * finder_.kernels.sigma * bin, middle = 0.5 * (bin - 1);
     for (int k = 0; k < bin; ++k)
       if (p.direction.column_wise())
         mask_.mark_column(nearest_pixel(p.x) * bin + k, p.y * bin + middle, half / std::abs(p.direction.x),
@@ -81,6 +86,8 @@ class Follower {
   MaskLabels& labels_;
   std::uint16_t previous_;  ///< at first the other way's label next to the start
   int stride_;              ///< columns (rows) from one evaluation to the next on a plain line
+  double length_before_;    ///< points on the other side of the start
+  double length_ = 0;       ///< points on both sides
 };
 
 /// The place `steps` columns (rows) ahead on the straight continuation, `aside` px beside it.
@@ -135,10 +142,11 @@ template <class T>
 std::optional<RidgePlace> Follower<T>::around_corner(const Tip& tip, const RidgeSearch& ahead) const {
   std::optional<RidgePlace> best;
   double nearest = 1e9;
-  for (const double angle : {0.6, -0.6, 1.2, -1.2}) {
+  for (const double angle : {kTuning.corner_angle, -kTuning.corner_angle, kTuning.sharp_corner_angle,
+                             -kTuning.sharp_corner_angle}) {
     RidgeSearch search = predict(tip, tip.direction.rotated(std::cos(angle), std::sin(angle)), 1, 0);
     search.clear_only = true;
-    search.least_strength = std::max(search.least_strength, 0.2 * tip.recent_strength);
+    search.least_strength = std::max(search.least_strength, kTuning.corner_strength * tip.recent_strength);
     if (!is_free(search.x, search.y)) continue;
     const auto found = finder_.find(search);
     if (!found || !is_free(found->x, found->y)) continue;
@@ -153,7 +161,8 @@ std::optional<RidgePlace> Follower<T>::around_corner(const Tip& tip, const Ridge
 /// Another line's pixels lie ahead. It disturbs the ridge before its mask begins.
 template <class T>
 bool Follower<T>::meets_line(const Tip& tip) const {
-  for (int k = 1; k <= 2 + static_cast<int>(2 * finder_.kernels.sigma); ++k) {
+  const double farthest = kTuning.disturbed_by_line_least + kTuning.disturbed_by_line * finder_.kernels.sigma;
+  for (int k = 1; k <= static_cast<int>(farthest); ++k) {
     const RidgeSearch ahead = predict(tip, tip.direction, k, 0);
     const auto x = nearest_pixel(ahead.x), y = nearest_pixel(ahead.y);
     if (finder_.image.contains(x, y) && !is_free(x, y)) return true;
@@ -165,22 +174,26 @@ bool Follower<T>::meets_line(const Tip& tip) const {
 /// it.
 template <class T>
 std::optional<Landing> Follower<T>::look_ahead(const Tip& tip, int nearest, bool far) const {
-  const int farthest = far ? static_cast<int>(14 * finder_.kernels.sigma) : limits_.largest_gap;
+  const double sigmas = std::min(kTuning.farthest_behind_crossing,
+                                 kTuning.farthest_of_first_points + length_ / finder_.kernels.sigma);
+  const int farthest = far ? static_cast<int>(sigmas * finder_.kernels.sigma) : limits_.largest_gap;
   const int confirmed_after = far ? 1 + static_cast<int>(finder_.kernels.sigma) : 1;
-  for (int k = nearest; k <= farthest; ++k) {
+  const int step =
+      far ? std::max(1, static_cast<int>(kTuning.step_behind_crossing * finder_.kernels.sigma)) : 1;
+  for (int k = nearest; k <= farthest; k += step) {
     RidgeSearch search = predict(tip, tip.direction, k, 0);
     if (!is_free(search.x, search.y)) continue;
-    search.reach = std::min(0.75 + 0.12 * k, 2.5);
-    search.least_cosine = 0.92;
+    search.reach = std::min(kTuning.landing_reach + kTuning.landing_spread * k, kTuning.most_landing_reach);
+    search.least_cosine = kTuning.landing_cosine;
     search.clear_only = true;
-    search.least_strength = std::max(search.least_strength, 0.02 * tip.recent_strength);
+    search.least_strength = std::max(search.least_strength, kTuning.landing_strength * tip.recent_strength);
     const auto found = finder_.find(search);
     if (!found || !is_free(found->x, found->y)) continue;
     // One point may be noise, or still be drawn aside by what was crossed: further ones have to agree.
     const Tip landed{found->x, found->y, found->direction, tip.recent_strength, 0, 0, {}};
     RidgeSearch next = predict(landed, landed.direction, confirmed_after, 0);
-    next.reach = 0.75;
-    next.least_cosine = 0.98;
+    next.reach = kTuning.landing_reach;
+    next.least_cosine = kTuning.confirmed_cosine;
     next.clear_only = true;
     if (!is_free(next.x, next.y) || !finder_.find(next)) continue;
     return Landing{*found, k - 1};
@@ -192,11 +205,13 @@ std::optional<Landing> Follower<T>::look_ahead(const Tip& tip, int nearest, bool
 template <class T>
 void Follower<T>::advance(Tip& tip, const RidgePlace& p, std::vector<StripePoint>& out) {
   const bool clear = p.clarity == RidgeClarity::kClear;
-  const double weight = !clear ? 0.0 : p.strength >= limits_.clear_strength ? 0.8 : 0.25;
+  const double weight = !clear                                 ? 0.0
+                        : p.strength >= limits_.clear_strength ? kTuning.clear_weight
+                                                               : kTuning.noisy_weight;
   tip.direction = blended(tip.direction, p.direction, weight);
   tip.x = p.x;
   tip.y = p.y;
-  tip.recent_strength = std::max(0.95 * tip.recent_strength, p.strength);
+  tip.recent_strength = std::max(kTuning.remembered_strength * tip.recent_strength, p.strength);
   tip.disturbed_steps = clear ? 0 : tip.disturbed_steps + 1;
   tip.steady_steps = clear ? tip.steady_steps + 1 : 0;
   tip.last = p;
@@ -210,8 +225,9 @@ template <class T>
 bool Follower<T>::leap(Tip& tip, std::size_t before, bool far, std::vector<StripePoint>& out) {
   // Before a crossing the last points are already drawn aside: they are given up, and the direction is taken
   // from the points before them.
-  const std::size_t doubtful = far ? 1 + static_cast<std::size_t>(1.5 * finder_.kernels.sigma) : 0;
-  constexpr std::size_t kBase = 6;
+  const std::size_t doubtful =
+      far ? static_cast<std::size_t>(kTuning.doubtful_least + kTuning.doubtful * finder_.kernels.sigma) : 0;
+  constexpr std::size_t kBase = kTuning.base_points;
   Tip base = tip;
   const bool retreats = doubtful > 0 && out.size() >= before + doubtful + kBase;
   if (retreats) {
@@ -243,8 +259,7 @@ bool Follower<T>::leap(Tip& tip, std::size_t before, bool far, std::vector<Strip
 /// Where the line runs on plainly, several columns (rows) at once; the points between are interpolated.
 template <class T>
 bool Follower<T>::stride(Tip& tip, std::vector<StripePoint>& out) {
-  constexpr int kSteady = 3;
-  if (stride_ == 1 || tip.steady_steps < kSteady) return false;
+  if (stride_ == 1 || tip.steady_steps < kTuning.steady_steps) return false;
   const int steady_steps = tip.steady_steps;
   tip.steady_steps = 1;  // unless it goes well, single steps come next
   const RidgeSearch ahead = predict(tip, tip.direction, stride_, 0);
@@ -253,7 +268,7 @@ bool Follower<T>::stride(Tip& tip, std::vector<StripePoint>& out) {
   if (!found || found->clarity != RidgeClarity::kClear ||
       found->direction.column_wise() != tip.last.direction.column_wise() ||
       tip.last.direction.column_wise() != tip.direction.column_wise() ||
-      found->strength < 0.5 * tip.recent_strength)
+      found->strength < kTuning.stride_strength * tip.recent_strength)
     return false;
   append_between(tip.last, *found, stride_, out);
   advance(tip, *found, out);
@@ -274,7 +289,8 @@ bool Follower<T>::go_on(std::size_t before, Tip& tip, std::vector<StripePoint>& 
   }
   const bool far = disturbed || meets_line(tip);
   if (far && leap(tip, before, true, out)) return true;
-  if (disturbed && tip.disturbed_steps < 2 + static_cast<int>(3 * finder_.kernels.sigma)) {
+  if (disturbed && tip.disturbed_steps < static_cast<int>(kTuning.disturbed_steps_least +
+                                                          kTuning.disturbed_steps * finder_.kernels.sigma)) {
     advance(tip, *found, out);
     return true;
   }
@@ -290,21 +306,23 @@ bool Follower<T>::go_on(std::size_t before, Tip& tip, std::vector<StripePoint>& 
 
 template <class T>
 bool Follower<T>::run(const RidgePlace& start, std::vector<StripePoint>& out) {
-  constexpr std::size_t kWindow = 8;
+  constexpr std::size_t kWindow = kTuning.curl_window;
   const std::size_t before = out.size();
   const std::size_t most = 4 * static_cast<std::size_t>(finder_.image.width + finder_.image.height);
   Tip tip{start.x, start.y, start.direction, start.strength, 0, 0, {}};
   std::size_t next_label = label_length();
   while (out.size() - before < most) {
+    length_ = length_before_ + static_cast<double>(out.size() - before);
     if (!go_on(before, tip, out)) return false;
     const std::size_t steps = out.size() - before;
-    if (steps > 12 && std::abs(tip.x - start.x) <= stride_ && std::abs(tip.y - start.y) <= stride_)
+    if (steps > kTuning.least_closed && std::abs(tip.x - start.x) <= stride_ &&
+        std::abs(tip.y - start.y) <= stride_)
       return true;
     // Curling up on a spot instead of going on.
     if (steps > kWindow) {
       const StripePoint& past = out[out.size() - 1 - kWindow];
       const double dx = past.x - tip.x, dy = past.y - tip.y;
-      if (dx * dx + dy * dy < 0.16 * kWindow * kWindow) return false;
+      if (dx * dx + dy * dy < kTuning.curl_advance * kTuning.curl_advance * kWindow * kWindow) return false;
     }
     if (steps < next_label) continue;
     next_label += label_length();
@@ -317,9 +335,9 @@ bool Follower<T>::run(const RidgePlace& start, std::vector<StripePoint>& out) {
 }  // namespace
 
 template <class T>
-bool follow_one_way(const RidgeFinder<T>& finder, const RidgePlace& start, bool forward, ExclusionMask& mask,
-                    MaskLabels& labels, std::vector<StripePoint>& out) {
-  Follower<T> follower(finder, mask, labels);
+bool follow_one_way(const RidgeFinder<T>& finder, const RidgePlace& start, bool forward, std::size_t behind,
+                    ExclusionMask& mask, MaskLabels& labels, std::vector<StripePoint>& out) {
+  Follower<T> follower(finder, mask, labels, behind);
   RidgePlace first = start;
   if (!forward) first.direction = {-start.direction.x, -start.direction.y};
   follower.mark(first);
@@ -334,8 +352,10 @@ bool follow_one_way(const RidgeFinder<T>& finder, const RidgePlace& start, bool 
 }
 
 template bool follow_one_way<std::uint8_t>(const RidgeFinder<std::uint8_t>&, const RidgePlace&, bool,
-                                           ExclusionMask&, MaskLabels&, std::vector<StripePoint>&);
+                                           std::size_t, ExclusionMask&, MaskLabels&,
+                                           std::vector<StripePoint>&);
 template bool follow_one_way<std::uint16_t>(const RidgeFinder<std::uint16_t>&, const RidgePlace&, bool,
-                                            ExclusionMask&, MaskLabels&, std::vector<StripePoint>&);
+                                            std::size_t, ExclusionMask&, MaskLabels&,
+                                            std::vector<StripePoint>&);
 
 }  // namespace lightstripe

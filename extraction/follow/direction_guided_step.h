@@ -3,6 +3,7 @@
 // Line following: predict the next place, test it, and look aside or ahead only when the test fails.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -20,9 +21,10 @@ struct MaskLabels {
 };
 
 /// Follows from `start` (not repeated in `out`) along its direction, or against it; appends points and marks
-/// them in `mask`. True if the line came back to its start (a closed curve).
+/// them in `mask`. `behind`: points that the line has on the start's other side. True if the line came back
+/// to its start (a closed curve).
 template <class T>
-bool follow_one_way(const RidgeFinder<T>& finder, const RidgePlace& start, bool forward, ExclusionMask& mask,
-                    MaskLabels& labels, std::vector<StripePoint>& out);
+bool follow_one_way(const RidgeFinder<T>& finder, const RidgePlace& start, bool forward, std::size_t behind,
+                    ExclusionMask& mask, MaskLabels& labels, std::vector<StripePoint>& out);
 
 }  // namespace lightstripe

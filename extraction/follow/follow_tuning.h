@@ -54,11 +54,69 @@ struct FollowTuning {
   /// Widths and heights of the image: more points than this followed in vain
   /// are a crowd of noise, and the search ends.
   double futile_points = 3;
+  /// The same once lines are found that are together as long as the picture's shorter side: seeds come by
+  /// falling contrast, so that a dozen crumbs in a row are the picture's texture.
+  double futile_points_with_line = 1.0;
+  /// The same for what is then tried beside the ends of lines, where a line goes on that a gap or a dark
+  /// surface interrupts.
+  double futile_points_beside_ends = 0.4;
+  /// Of the least length, for a line as bright as the strongest: so much is a line that may go on.
+  double evident_line = 0.4;
+  /// Full widths: so far from a line's end, straight on, its rest may stand out first.
+  double widths_beside_end = 12;
   /// Points of following that a seed costs at which no scale shows a line:
   /// about 2 microseconds.
   double futile_seed = 3;
   /// The same for what is tried at both ends of a line before it ends.
   double futile_line = 50;
 };
+
+/// The numbers of a single step along a line.
+struct StepTuning {
+  /// Sigma to both sides of a line that no other one uses: 3.6 stripe standard deviations less what a
+  /// crossing line needs to come near.
+  double marked = 2.1;
+  /// Radians, to both sides: where a line may leave around a corner, up to about a right angle with the next
+  /// step's own turn.
+  double corner_angle = 0.6, sharp_corner_angle = 1.2;
+  /// Of the line's recent strength: around a corner the line stays about as strong, beyond a gap it may be
+  /// dimmer.
+  double corner_strength = 0.2, landing_strength = 0.02;
+  /// Sigma, and steps: another line's mask so near ahead disturbs the ridge already.
+  double disturbed_by_line = 2, disturbed_by_line_least = 2;
+  /// Sigma: how far ahead a line is looked for behind a crossing, which is as long as a line is wide at 20
+  /// degrees.
+  double farthest_behind_crossing = 14;
+  /// Sigma, and as much more as the line is long: a direction taken from a few points says nothing farther
+  /// ahead, and crumbs beside a line are tried over and over.
+  double farthest_of_first_points = 7;
+  /// Sigma from one place to the next there: the smoothed picture holds nothing finer.
+  double step_behind_crossing = 1;
+  /// Px: how far from the straight way the line may be, growing by a share of the distance up to the most.
+  double landing_reach = 0.75, landing_spread = 0.12, most_landing_reach = 2.5;
+  /// Cosine of the turn at a landing (23 degrees), and at the point that has to confirm it (11 degrees).
+  double landing_cosine = 0.92, confirmed_cosine = 0.98;
+  /// Weight of a point's direction in that of the line: of a clear one, and of one in noise.
+  double clear_weight = 0.8, noisy_weight = 0.25;
+  /// A step: what remains of the strongest recent point, so that a line may fade over some 50 px.
+  double remembered_strength = 0.95;
+  /// Sigma, and points besides: before a crossing so many points are drawn aside and given up.
+  double doubtful = 1.5, doubtful_least = 1;
+  /// Points back from there, over which the direction is taken.
+  int base_points = 6;
+  /// Plain steps before several columns are taken at once; and the share of the recent strength below which
+  /// they are taken singly.
+  int steady_steps = 3;
+  double stride_strength = 0.5;
+  /// Sigma, and steps besides: so long a line may be followed on in another one's disturbance.
+  double disturbed_steps = 3, disturbed_steps_least = 2;
+  /// Points: a line that comes back to its start after fewer is none that is closed.
+  int least_closed = 12;
+  /// Points, and the share of them that the line must have got on in a straight way; else it curls up on a
+  /// spot.
+  int curl_window = 8;
+  double curl_advance = 0.4;
+};
+inline constexpr StepTuning kStepTuning;
 
 }  // namespace lightstripe

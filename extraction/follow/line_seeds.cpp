@@ -14,8 +14,9 @@
 namespace lightstripe {
 namespace {
 
-/// Rows that are searched: thin stripes need each one, a line of w >= 7 px each fourth.
-int row_step(double sigma) { return std::clamp(static_cast<int>(sigma), 1, 4); }
+/// Rows that are searched: a line of w >= 7 px is met by each fourth, one of sigma 1 px still stands out half
+/// a pixel beside its centre; thinner ones need each row.
+int row_step(double sigma) { return sigma < 1 ? 1 : std::clamp(static_cast<int>(sigma), 2, 4); }
 
 /// The columns taken in a row, every so many from the offset on: as sparse as the rows, and staggered, so
 /// that lines along the columns are met.
@@ -81,8 +82,23 @@ void candidates_of_span(const ScanRow<T>& row, int width, const ScanRule<T>& sca
   for (int x = pattern.first_from(right); x < span.end; x += pattern.step) add(x);
 }
 
+/// A counting sort, which keeps the order of equals.
+void sort_by_rank(SeedWorkspace& w) {
+  constexpr std::int32_t kRanks = 512;
+  const auto place = [](const LineSeed& s) {
+    return static_cast<std::size_t>(kRanks - 1 - ((s.foreground ? 256 : 0) + s.rank));
+  };
+  std::array<std::size_t, kRanks + 1> first{};
+  for (const LineSeed& s : w.found) ++first[place(s) + 1];
+  for (std::size_t i = 1; i < first.size(); ++i) first[i] += first[i - 1];
+  w.sorted.resize(w.found.size());
+  for (const LineSeed& s : w.found) w.sorted[first[place(s)]++] = s;
+}
+
+}  // namespace
+
 template <class T>
-void collect(ImageView<T> image, const SeedRule& rule, SeedWorkspace& w) {
+void collect_seeds(ImageView<T> image, const SeedRule& rule, SeedWorkspace& w) {
   const ScanRule<T> scan{
       to_pixel<T>(std::min(rule.level, rule.brightest)), std::max(T{1}, to_pixel<T>(rule.contrast)),
       rule.reach > 0 ? rule.reach : std::max(2, static_cast<int>(std::lround(3.2 * rule.sigma)))};
@@ -112,27 +128,14 @@ void collect(ImageView<T> image, const SeedRule& rule, SeedWorkspace& w) {
   }
 }
 
-/// A counting sort, which keeps the order of equals.
-void sort_by_rank(SeedWorkspace& w) {
-  constexpr std::int32_t kRanks = 512;
-  const auto place = [](const LineSeed& s) {
-    return static_cast<std::size_t>(kRanks - 1 - ((s.foreground ? 256 : 0) + s.rank));
-  };
-  std::array<std::size_t, kRanks + 1> first{};
-  for (const LineSeed& s : w.found) ++first[place(s) + 1];
-  for (std::size_t i = 1; i < first.size(); ++i) first[i] += first[i - 1];
-  w.sorted.resize(w.found.size());
-  for (const LineSeed& s : w.found) w.sorted[first[place(s)]++] = s;
-}
-
-}  // namespace
-
 template <class T>
 void find_seeds(ImageView<T> image, const SeedRule& rule, SeedWorkspace& workspace) {
-  collect(image, rule, workspace);
+  collect_seeds(image, rule, workspace);
   sort_by_rank(workspace);
 }
 
+template void collect_seeds<std::uint8_t>(ImageView8, const SeedRule&, SeedWorkspace&);
+template void collect_seeds<std::uint16_t>(ImageView16, const SeedRule&, SeedWorkspace&);
 template void find_seeds<std::uint8_t>(ImageView8, const SeedRule&, SeedWorkspace&);
 template void find_seeds<std::uint16_t>(ImageView16, const SeedRule&, SeedWorkspace&);
 

@@ -37,6 +37,10 @@ struct SeedWorkspace {
   std::vector<std::uint16_t> zeros16;
 };
 
+/// The candidates of every few rows in `workspace.found`, in reading order.
+template <class T>
+void collect_seeds(ImageView<T> image, const SeedRule& rule, SeedWorkspace& workspace);
+
 /// The candidates of every few rows in `workspace.sorted`: foreground before undecided pixels, then by
 /// falling contrast, then in reading order. Of a wide stripe only every few pixels are taken.
 template <class T>

@@ -20,44 +20,6 @@ struct RungRange {
 };
 RungRange rungs_of(int level) { return {2 * level - 2, 2 * level + 4}; }
 
-/// Where the coarse levels look for lines: pixels that stand out over those 4
-/// px to both sides, which meets stripes of a standard deviation of 1 to 2.5
-/// px.
-constexpr int kSeedReach = 4;
-
-template <class T>
-void collect_level(const OwnScaleSearch<T>& search, int level, SeedWorkspace& seeds,
-                   OwnScaleWorkspace<T>& w) {
-  const auto k = static_cast<std::size_t>(level);
-  SeedRule rule;
-  rule.contrast = std::max(4.0 / (1 << level), 5.0 * w.pyramid.noise[k]);
-  rule.foreground = search.brightest + 1;
-  rule.brightest = search.brightest;
-  rule.reach = kSeedReach;
-  rule.step = level == 0 ? 2 : 1;
-  if (search.windowed != nullptr) {
-    rule.windows = search.windowed->seeds;
-    rule.binned = level;
-  }
-  find_seeds(w.pyramid.levels[k], rule, seeds);
-  const int half = (1 << level) / 2;
-  for (const LineSeed& s : seeds.sorted)
-    w.found.push_back({(s.x << level) + half, (s.y << level) + half, static_cast<std::int16_t>(level),
-                       static_cast<std::int16_t>(s.rank)});
-}
-
-/// By falling contrast, then from fine to coarse levels; a counting sort keeps
-/// the order of equals.
-template <class T>
-void sort_seeds(OwnScaleWorkspace<T>& w) {
-  std::array<std::size_t, 257> first{};
-  const auto place = [](const ScaleSeed& s) { return static_cast<std::size_t>(255 - s.rank); };
-  for (const ScaleSeed& s : w.found) ++first[place(s) + 1];
-  for (std::size_t i = 1; i < first.size(); ++i) first[i] += first[i - 1];
-  w.seeds.resize(w.found.size());
-  for (const ScaleSeed& s : w.found) w.seeds[first[place(s)]++] = s;
-}
-
 template <class T>
 class LineFinder {
  public:
@@ -91,11 +53,21 @@ class LineFinder {
   double broader_in_grain(const Followed& line, double width_scale);
   bool is_clipped(std::span<const StripePoint> points) const;
   double length(const Followed& line) const { return static_cast<double>(line.range.size()); }
+  std::span<const StripePoint> points_of(const Followed& line) const {
+    return {groups_.all[line.group].lines.points.data() + line.range.begin, line.range.size()};
+  }
+  void add_futile(const Followed& line) {
+    w_.patience.add_futile(search_.tuning.futile_line +
+                           length(line) / groups_.all[line.group].kernels->sigma);
+  }
   double height(const Followed& line) const;
   bool runs_beside_another(const Followed& line) const;
   bool is_edge(const Followed& line) const;
   void keep_or_reject(const Followed& line, int seed_level);
+  bool is_untried(const ScaleSeed& seed);
   void try_seed(const ScaleSeed& seed);
+  void try_seeds(bool beside_ends);
+  bool has_enough() const { return search_.stop_after > 0 && lines_ >= search_.stop_after; }
 
   const OwnScaleSearch<T>& search_;
   const LimitsMaker& limits_;
@@ -105,7 +77,6 @@ class LineFinder {
   ScaleGroups& groups_;
   MaskLabels labels_;
   double strongest_ = 0;  ///< grey levels, height of the strongest line so far
-  double futile_ = 0;     ///< points followed in vain
   int lines_ = 0;
 };
 
@@ -116,18 +87,20 @@ void LineFinder<T>::prepare() {
   else
     build_pyramid(search_.image, search_.noise, w_.pyramid);
   w_.found.clear();
+  const SearchWindows* windows = search_.windowed != nullptr ? search_.windowed->seeds : nullptr;
   for (int level = 0; level < w_.pyramid.count; ++level) {
     if (search_.windowed == nullptr || level <= search_.windowed->coarsest)
-      collect_level(search_, level, following_.seeds, w_);
+      collect_scale_seeds(w_.pyramid, level, {search_.brightest, windows}, following_.seeds, w_.found);
     const ImageView<T> image = w_.pyramid.levels[static_cast<std::size_t>(level)];
     w_.tried[static_cast<std::size_t>(level)].assign(
         static_cast<std::size_t>(image.width / 4 + 1) * static_cast<std::size_t>(image.height / 4 + 1), 0);
   }
-  sort_seeds(w_);
+  sort_by_contrast(w_.found, w_.seeds);
   w_.blocked.assign(static_cast<std::size_t>(search_.image.width / 4 + 1) *
                         static_cast<std::size_t>(search_.image.height / 4 + 1),
                     0);
   following_.mask.reset(search_.image.width, search_.image.height, 1);
+  w_.patience.reset(search_.image.width, search_.image.height, search_.tuning);
   groups_.count = 0;
 }
 
@@ -243,8 +216,7 @@ std::optional<typename LineFinder<T>::Followed> LineFinder<T>::at_own_scale(cons
       (much_finer ? search_.tuning.kept_length_of_finer : search_.tuning.kept_length) * length(line);
   take_back(line);
   const std::size_t group = group_for(own, 0.5 * tolerance);
-  auto again =
-      follow(group, static_cast<int>(std::lround(middle.x)), static_cast<int>(std::lround(middle.y)));
+  auto again = follow(group, nearest_pixel(middle.x), nearest_pixel(middle.y));
   if (again && length(*again) >= least) return again;
   if (again) take_back(*again);
   return follow(line.group, x, y);
@@ -269,10 +241,8 @@ bool LineFinder<T>::is_edge(const Followed& line) const {
   const std::size_t step = std::max<std::size_t>(1, line.range.size() / 24);
   std::size_t looked_at = 0, one_sided = 0;
   const auto grey = [&](const StripePoint& p, double aside) {
-    const int x = std::clamp(static_cast<int>(std::lround(p.x + aside * p.normal_x)), 0,
-                             search_.image.width - 1),
-              y = std::clamp(static_cast<int>(std::lround(p.y + aside * p.normal_y)), 0,
-                             search_.image.height - 1);
+    const int x = std::clamp(nearest_pixel(p.x + aside * p.normal_x), 0, search_.image.width - 1),
+              y = std::clamp(nearest_pixel(p.y + aside * p.normal_y), 0, search_.image.height - 1);
     return static_cast<double>(search_.image(x, y));
   };
   for (std::size_t i = line.range.begin; i < line.range.end; i += step) {
@@ -295,8 +265,8 @@ bool LineFinder<T>::runs_beside_another(const Followed& line) const {
     const StripePoint& p = g.lines.points[i];
     ++looked_at;
     for (const double aside : {-1.5, -1.0, -0.5, 0.0, 0.5, 1.0, 1.5}) {
-      const auto x = static_cast<int>(std::lround(p.x + aside * g.kernels->sigma * p.normal_x)),
-                 y = static_cast<int>(std::lround(p.y + aside * g.kernels->sigma * p.normal_y));
+      const auto x = nearest_pixel(p.x + aside * g.kernels->sigma * p.normal_x),
+                 y = nearest_pixel(p.y + aside * g.kernels->sigma * p.normal_y);
       if (!search_.image.contains(x, y)) continue;
       const std::uint16_t label = following_.mask(x, y);
       if (label == ExclusionMask::kFree || label == ExclusionMask::kDead || label >= line.first_label)
@@ -315,12 +285,14 @@ void LineFinder<T>::keep_or_reject(const Followed& line, int seed_level) {
     ++lines_;
     // An edge or a crumb: the filter of whole lines drops nearly all of them.
     if (is_edge(line) || length(line) < least)
-      futile_ += search_.tuning.futile_line + length(line) / groups_.all[line.group].kernels->sigma;
+      add_futile(line);
+    else if (length(line) * height(line) >= search_.tuning.evident_line * least * strongest_)
+      w_.patience.add_line(points_of(line), least / search_.least_widths);
     block(line, search_.tuning.blocked_by_line, 0);
     strongest_ = std::max(strongest_, height(line) * std::min(1.0, length(line) / (3 * least)));
     return;
   }
-  futile_ += search_.tuning.futile_line + length(line) / groups_.all[line.group].kernels->sigma;
+  add_futile(line);
   block(line, search_.tuning.blocked_by_rejected, seed_level);
   take_back(line);
 }
@@ -336,27 +308,26 @@ void LineFinder<T>::block(const Followed& line, double sigmas, int finest_level)
   for (std::size_t i = line.range.begin; i < line.range.end; i += step) {
     const StripePoint& p = g.lines.points[i];
     for (double aside = -reach; aside <= reach; aside += 3) {
-      const auto x = static_cast<int>(std::lround(p.x + aside * p.normal_x)),
-                 y = static_cast<int>(std::lround(p.y + aside * p.normal_y));
+      const auto x = nearest_pixel(p.x + aside * p.normal_x), y = nearest_pixel(p.y + aside * p.normal_y);
       if (search_.image.contains(x, y)) blocked(x, y) |= levels;
     }
   }
 }
 
 template <class T>
-void LineFinder<T>::try_seed(const ScaleSeed& seed) {
-  if (!search_.image.contains(seed.x, seed.y) ||
-      search_.image.laser_colour(seed.x, seed.y) < LaserPlace::kFaint)
-    return;
+bool LineFinder<T>::is_untried(const ScaleSeed& seed) {
   const std::uint16_t label = following_.mask(seed.x, seed.y);
-  if (label != ExclusionMask::kFree && label != ExclusionMask::kDead) return;
-  std::uint8_t& cell = tried(seed.level, seed.x, seed.y);
-  if (cell != 0 || (blocked(seed.x, seed.y) & (1U << seed.level)) != 0) return;
-  cell = 1;
+  if (label != ExclusionMask::kFree && label != ExclusionMask::kDead) return false;
+  return tried(seed.level, seed.x, seed.y) == 0 && (blocked(seed.x, seed.y) & (1U << seed.level)) == 0;
+}
+
+template <class T>
+void LineFinder<T>::try_seed(const ScaleSeed& seed) {
+  tried(seed.level, seed.x, seed.y) = 1;
   const RungRange rungs = rungs_of(seed.level);
   const auto ridge = best_scale(w_.pyramid, kernels_, seed.x, seed.y, rungs.first, rungs.last);
   if (!ridge) {
-    futile_ += search_.tuning.futile_seed;
+    w_.patience.add_futile(search_.tuning.futile_seed);
     return;
   }
   auto line = follow(group_for(ridge->sigma, search_.tuning.shared_scale), seed.x, seed.y);
@@ -364,15 +335,27 @@ void LineFinder<T>::try_seed(const ScaleSeed& seed) {
   if (line) keep_or_reject(*line, seed.level);
 }
 
+/// Tries the seeds in their order, as long as there is hope.
+template <class T>
+void LineFinder<T>::try_seeds(bool beside_ends) {
+  for (const ScaleSeed& seed : w_.seeds) {
+    if (labels_.current >= ExclusionMask::kLastLabel || w_.patience.is_over() || has_enough()) return;
+    if (seed.rank * search_.brightest < 255 * search_.tuning.faintest_seed * strongest_) return;
+    if (!is_untried(seed) || (beside_ends && !w_.patience.is_beside_end(seed.x, seed.y))) continue;
+    try_seed(seed);
+  }
+}
+
 template <class T>
 void LineFinder<T>::run() {
   prepare();
-  const double most_futile = search_.tuning.futile_points * (search_.image.width + search_.image.height);
-  for (const ScaleSeed& seed : w_.seeds) {
-    if (labels_.current >= ExclusionMask::kLastLabel || futile_ > most_futile) return;
-    if (seed.rank * search_.brightest < 255 * search_.tuning.faintest_seed * strongest_) return;
-    try_seed(seed);
-    if (search_.stop_after > 0 && lines_ >= search_.stop_after) return;
+  try_seeds(false);
+  if (!w_.patience.is_over()) return;
+  w_.patience.look_beside_ends();
+  // What is found has ends of its own.
+  for (std::size_t before = 0; before < w_.patience.lines() && !w_.patience.is_over();) {
+    before = w_.patience.lines();
+    try_seeds(true);
   }
 }
 

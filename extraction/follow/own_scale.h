@@ -10,7 +10,9 @@
 
 #include "extraction/follow/direction_guided.h"
 #include "extraction/follow/follow_tuning.h"
+#include "extraction/follow/patience.h"
 #include "extraction/follow/scale_ladder.h"
+#include "extraction/follow/scale_seeds.h"
 #include "extraction/lines/line_set.h"
 
 namespace lightstripe {
@@ -41,13 +43,6 @@ struct ScaleGroups {
   std::span<ScaleGroup> used() { return {all.data(), count}; }
 };
 
-/// A place where a line may begin.
-struct ScaleSeed {
-  std::int32_t x = 0, y = 0;  ///< px
-  std::int16_t level = 0;     ///< of the pyramid, where it stands out
-  std::int16_t rank = 0;      ///< contrast, 0..255 of the brightest pixel
-};
-
 template <class T>
 struct OwnScaleWorkspace {
   ImagePyramid<T> pyramid;
@@ -56,6 +51,7 @@ struct OwnScaleWorkspace {
   std::array<std::vector<std::uint8_t>, ImagePyramid<T>::kMostLevels> tried;
   /// Cells of 4 x 4 pixels beside lines that were followed; bit k: no seed of level k is tried there.
   std::vector<std::uint8_t> blocked;
+  SearchPatience patience;
   std::vector<StripePoint> binned_points;
   std::vector<float> values;
 };

@@ -8,11 +8,13 @@
 #include "core/robust.h"
 #include "extraction/follow/line_point.h"
 #include "extraction/image/noise.h"
+#include "extraction/kernels/kernels_scan.h"
 
 namespace lightstripe {
 namespace {
 
 constexpr int kSmallestLevel = 24;     // px, of a binned image's sides
+constexpr double kNoisePixels = 4000;  // of a level that tell its noise, to 2 %
 constexpr double kClearOfNoise = 7;    // standard deviations of the strength
 constexpr double kFaintestHeight = 3;  // grey levels, of a stripe's peak
 constexpr double kMostAlong = 0.4;     // of the curvature across: a dot has 1, a line 0
@@ -23,8 +25,8 @@ constexpr std::size_t kSamples = 16;   // points of a line that are looked at
 /// Columns [begin, end) of a row of the coarser image.
 template <class T>
 void halve_row(const T* a, const T* b, int begin, int end, T* out) {
-  for (int x = begin; x < end; ++x)
-    out[x] = static_cast<T>((std::uint32_t{a[2 * x]} + a[2 * x + 1] + b[2 * x] + b[2 * x + 1] + 2) / 4);
+  if (begin < end)
+    halve_rows(a + 2 * begin, b + 2 * begin, static_cast<std::size_t>(end - begin), out + begin);
 }
 
 template <class T>
@@ -78,21 +80,13 @@ Derivatives derivatives_at(ImagePyramid<T>& pyramid, const DerivativeKernels& ke
       pyramid.border_window);
 }
 
-/// The kernels of one rung in a level of the pyramid. Coarse pixels blur by their own width, once in the
-/// image and once in the kernel that is integrated over them: so much less is left to the kernel.
-const DerivativeKernels& rung_kernels(KernelCache& cache, int rung, int level) {
-  const double bin = 1 << level, sigma = ScaleLadder::sigma(rung);
-  const double variance = sigma * sigma - (bin * bin - 1) / 6;
-  return cache.close_to(std::sqrt(std::max(variance, 0.5 * sigma * sigma)) / bin);
-}
-
 /// Strength of the line near a place at one rung, grey levels / px^2 of the whole image; 0 where there is
 /// none.
 template <class T>
 double strength_at(ImagePyramid<T>& pyramid, KernelCache& cache, double x, double y, int rung) {
   const int level = std::min(ScaleLadder::level(rung), pyramid.count - 1);
   const double bin = 1 << level, per_area = 1 / (bin * bin);
-  const DerivativeKernels& kernels = rung_kernels(cache, rung, level);
+  const DerivativeKernels& kernels = cache.of_rung(rung, level);
   const double noise = pyramid.noise[static_cast<std::size_t>(level)] * kernels.curvature_gain;
   HessianAxes axes;
   // Once more from the ridge, which the seed may miss by about a kernel's width.
@@ -124,15 +118,15 @@ template <class T>
 double line_response(ImagePyramid<T>& pyramid, KernelCache& cache, std::span<const StripePoint> points,
                      int rung) {
   const int level = std::min(ScaleLadder::level(rung), pyramid.count - 1);
-  const double bin = 1 << level, sigma = ScaleLadder::sigma(rung);
-  const DerivativeKernels& kernels = rung_kernels(cache, rung, level);
+  const double bin = 1 << level;
+  const DerivativeKernels& kernels = cache.of_rung(rung, level);
   const std::size_t step = std::max<std::size_t>(1, points.size() / kSamples);
   double sum = 0;
   for (std::size_t i = step / 2; i < points.size(); i += step) {
     const StripePoint& p = points[i];
     sum -= second_derivative(derivatives_at(pyramid, kernels, level, p.x, p.y), p.normal_x, p.normal_y);
   }
-  return sum / (bin * bin) * std::pow(sigma, 1.5);
+  return sum / (bin * bin) * ScaleLadder::normalisation(rung);
 }
 
 }  // namespace
@@ -150,6 +144,26 @@ const DerivativeKernels& KernelCache::close_to(double sigma) {
   return sets.emplace(index, make_derivative_kernels(std::exp2(index / kPerOctave))).first->second;
 }
 
+// Coarse pixels blur by their own width, once in the image and once in the kernel that is integrated over
+// them: so much less is left to the kernel.
+const DerivativeKernels& KernelCache::of_rung(int rung, int level) {
+  const DerivativeKernels*& kept =
+      rungs.at(static_cast<std::size_t>(rung)).at(static_cast<std::size_t>(level));
+  if (kept != nullptr) return *kept;
+  const double bin = 1 << level, sigma = ScaleLadder::sigma(rung);
+  const double variance = sigma * sigma - (bin * bin - 1) / 6;
+  kept = &close_to(std::sqrt(std::max(variance, 0.5 * sigma * sigma)) / bin);
+  return *kept;
+}
+
+double ScaleLadder::normalisation(int rung) {
+  static const auto values = [] {
+    std::array<double, kRungs> v{};
+    for (int k = 0; k < kRungs; ++k) v.at(static_cast<std::size_t>(k)) = std::pow(sigma(k), 1.5);
+    return v;
+  }();
+  return values.at(static_cast<std::size_t>(rung));
+}
 double ScaleLadder::sigma(double rung) { return std::exp2(0.5 * rung); }
 int ScaleLadder::level(int rung) { return rung <= 2 ? 0 : (rung - 1) / 2; }
 
@@ -159,7 +173,7 @@ void build_pyramid(ImageView<T> image, double noise, ImagePyramid<T>& pyramid) {
       image, noise, pyramid, [](ImageView<T> finer, int, Image<T>& coarser) { halve(finer, coarser); },
       [&](ImageView<T> level, int k) {
         // White noise falls by half from level to level; grain, texture and a codec's noise by less.
-        const int thinning = std::max(1, static_cast<int>(1.0 * level.width * level.height / 16000));
+        const int thinning = std::max(1, static_cast<int>(1.0 * level.width * level.height / kNoisePixels));
         return std::max(noise / (1 << k), estimate_noise(level, thinning).seen);
       });
 }
@@ -181,7 +195,7 @@ std::optional<ScaledRidge> best_scale(ImagePyramid<T>& pyramid, KernelCache& ker
   int best = -1;
   for (int rung = std::max(first, 0); rung <= std::min(last, ScaleLadder::kRungs - 1); ++rung) {
     const auto k = static_cast<std::size_t>(rung + 1);
-    normalised[k] = strength_at(pyramid, kernels, x, y, rung) * std::pow(ScaleLadder::sigma(rung), 1.5);
+    normalised[k] = strength_at(pyramid, kernels, x, y, rung) * ScaleLadder::normalisation(rung);
     largest = std::max(largest, normalised[k]);
   }
   if (largest <= 0) return std::nullopt;

@@ -19,21 +19,42 @@
 
 namespace lightstripe {
 
+/// The ladder of scales: half an octave from rung to rung.
+struct ScaleLadder {
+  static constexpr int kRungs = 9;
+  static double sigma(double rung);       ///< px, 1 ... 16; rungs may be broken
+  static double normalisation(int rung);  ///< sigma^1.5
+  static int level(int rung);  ///< the pyramid's, in which the rung's kernels are 1.4 or 2 pixels wide
+};
+
 /// Kernels of the scales met so far, kept from frame to frame.
 struct KernelCache {
+  static constexpr int kMostLevels = 4;  ///< of a pyramid
+
   std::map<int, DerivativeKernels> sets;
+  /// Those of the ladder's rungs in each level, null until they are asked for; they point into `sets`.
+  std::array<std::array<const DerivativeKernels*, kMostLevels>, ScaleLadder::kRungs> rungs{};
+
+  KernelCache() = default;
+  KernelCache(const KernelCache&) = delete;
+  KernelCache& operator=(const KernelCache&) = delete;
+  KernelCache(KernelCache&&) = default;
+  KernelCache& operator=(KernelCache&&) = default;
+  ~KernelCache() = default;
 
   /// The kernels nearest to `sigma` px of eight scales an octave, so that they are few.
   const DerivativeKernels& nearest(double sigma);
-  /// Those within 0.5 % of `sigma`, for the few rungs of the ladder.
+  /// Those within 0.5 % of `sigma`.
   const DerivativeKernels& close_to(double sigma);
+  /// Those of one rung of the ladder in a level of the pyramid.
+  const DerivativeKernels& of_rung(int rung, int level);
 };
 
 /// The image, and means of 2 x 2, 4 x 4 and 8 x 8 of its pixels: there broad kernels cost as little as narrow
 /// ones.
 template <class T>
 struct ImagePyramid {
-  static constexpr int kMostLevels = 4;
+  static constexpr int kMostLevels = KernelCache::kMostLevels;
 
   std::array<ImageView<T>, kMostLevels> levels;
   std::array<double, kMostLevels> noise{};  ///< grey levels, as it is seen in each level
@@ -54,13 +75,6 @@ using LevelNoise = std::array<double, ImagePyramid<std::uint8_t>::kMostLevels>;
 template <class T>
 void build_pyramid(ImageView<T> image, const LevelNoise& noise, const SearchWindows& windows,
                    ImagePyramid<T>& pyramid);
-
-/// The ladder of scales: half an octave from rung to rung.
-struct ScaleLadder {
-  static constexpr int kRungs = 9;
-  static double sigma(double rung);  ///< px, 1 ... 16; rungs may be broken
-  static int level(int rung);        ///< the pyramid's, in which the rung's kernels are 1.4 or 2 pixels wide
-};
 
 /// A ridge at the scale that suits it best.
 struct ScaledRidge {

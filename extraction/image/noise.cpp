@@ -15,9 +15,13 @@ namespace {
 
 /// Counts of absolute differences: single levels at first, coarser ones for the large differences of 16-bit
 /// images.
+template <class T>
 struct DifferenceCounts {
-  static constexpr int kFine = 2048, kCoarse = 64, kBins = 2 * kFine;
-  std::array<std::uint32_t, kBins> counts{};
+  static constexpr int kFine = sizeof(T) == 1 ? 1024 : 2048, kCoarse = 64,
+                       kBins = sizeof(T) == 1 ? kFine : 2 * kFine;
+  using Table = std::array<std::uint32_t, kBins>;
+  /// Two tables, because neighbouring differences are often equal and would wait for each other's increment.
+  Table even{}, odd{};
   std::uint64_t total = 0;    ///< triples without a clipped pixel
   std::uint64_t clipped = 0;  ///< triples with one
 
@@ -32,24 +36,32 @@ struct DifferenceCounts {
 };
 
 template <class T>
-void count_differences(const T* pixels, int length, DifferenceCounts& c) {
-  for (int x = 1; x + 1 < length; ++x) {
+void count_differences(const T* pixels, int length, DifferenceCounts<T>& c) {
+  const auto count = [&](int x, auto& table) {
     const int left = pixels[x - 1], centre = pixels[x], right = pixels[x + 1];
     const bool clipped = left == 0 || centre == 0 || right == 0;
     c.clipped += clipped ? 1U : 0U;
-    c.counts[static_cast<std::size_t>(DifferenceCounts::bin(std::abs(left - 2 * centre + right)))] +=
+    table[static_cast<std::size_t>(DifferenceCounts<T>::bin(std::abs(left - 2 * centre + right)))] +=
         clipped ? 0U : 1U;
+  };
+  int x = 1;
+  for (; x + 2 < length; x += 2) {
+    count(x, c.even);
+    count(x + 1, c.odd);
   }
+  if (x + 1 < length) count(x, c.even);
   if (length > 2) c.total += static_cast<std::uint64_t>(length - 2);
 }
 
-double median_difference(const DifferenceCounts& c) {
+template <class T>
+double median_difference(const DifferenceCounts<T>& c) {
   const double half = 0.5 * static_cast<double>(c.total);
   double below = 0;
-  for (int bin = 0; bin < DifferenceCounts::kBins; ++bin) {
-    const double count = c.counts[static_cast<std::size_t>(bin)];
+  for (int bin = 0; bin < DifferenceCounts<T>::kBins; ++bin) {
+    const auto k = static_cast<std::size_t>(bin);
+    const double count = c.even[k] + c.odd[k];
     if (count > 0 && below + count >= half) {
-      const double begin = DifferenceCounts::begin(bin), end = DifferenceCounts::begin(bin + 1);
+      const double begin = DifferenceCounts<T>::begin(bin), end = DifferenceCounts<T>::begin(bin + 1);
       return begin + (half - below) / count * (end - begin);
     }
     below += count;
@@ -64,7 +76,7 @@ NoiseEstimate estimate_noise(ImageView<T> image, int thinning) {
   constexpr double kQuantisation = 0.28867513459481287;  // 1 / sqrt(12)
   constexpr double kHalfNormal = 0.6028;                 // standard deviation of a halved normal of sigma 1
   constexpr double kClippedNormal = 0.5838;              // the same with the other half at 0
-  DifferenceCounts c;
+  DifferenceCounts<T> c;
   for_sampled_pieces(image, thinning,
                      [&](const T* pixels, int length) { count_differences(pixels, length, c); });
   c.total -= c.clipped;

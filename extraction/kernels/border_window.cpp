@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 
 namespace lightstripe {
 namespace {
@@ -51,6 +52,11 @@ void fill_columns_outside(ImageView<T> image, const BorderWindow& w, std::vector
     const int column = x < 0 ? 0 : image.width - 1;
     const ShiftedLine<T> line(image.data + column, image.stride, image.height, slope * (column - x));
     T* out = window.data() + first * w.pitch + i;
+    if (slope == 0) {
+      const T* pixel = line.first + (w.top + first) * line.step;
+      for (int j = first; j < last; ++j, out += w.pitch, pixel += line.step) *out = *pixel;
+      continue;
+    }
     if (!line.contains(w.top + first, w.top + last)) {
       for (int j = first; j < last; ++j, out += w.pitch) *out = line(w.top + j);
       continue;
@@ -66,32 +72,52 @@ void fill_columns_outside(ImageView<T> image, const BorderWindow& w, std::vector
   }
 }
 
-/// A row above or below the image, from its border row; the corners are repeated.
+/// A few pixels; a call would cost more than they do. The two regions do not overlap.
 template <class T>
-void fill_row_outside(ImageView<T> image, const BorderWindow& w, int y, T* out) {
-  const int border = y < 0 ? 0 : image.height - 1;
-  const double slope = std::abs(w.tangent_y) > kLeastAcross ? w.tangent_x / w.tangent_y : 0.0;
-  const ShiftedLine<T> line(image.row(border), 1, image.width, slope * (border - y));
-  for (int i = 0; i < w.taps; ++i) {
-    const int x = w.left + i;
-    out[i] = x < 0 ? image.row(border)[0] : x >= image.width ? image.row(border)[image.width - 1] : line(x);
+void copy_few(const T* from, int count, T* to) {
+  constexpr int kChunk = 8 / sizeof(T);
+  if (count < kChunk) {
+    for (int i = 0; i < count; ++i) to[i] = from[i];
+    return;
   }
+  // The last chunk overlaps the one before.
+  for (int i = 0; i + kChunk < count; i += kChunk) std::memcpy(to + i, from + i, 8);
+  std::memcpy(to + count - kChunk, from + count - kChunk, 8);
+}
+
+/// A row above or below the image, from its border row; the corners are repeated. Columns [first, last) of
+/// the window lie inside the image.
+template <class T>
+void fill_row_outside(ImageView<T> image, const BorderWindow& w, int y, int first, int last, T* out) {
+  const T* border = image.row(y < 0 ? 0 : image.height - 1);
+  const double slope = std::abs(w.tangent_y) > kLeastAcross ? w.tangent_x / w.tangent_y : 0.0;
+  const ShiftedLine<T> line(border, 1, image.width, slope * (y < 0 ? -y : image.height - 1 - y));
+  for (int i = 0; i < first; ++i) out[i] = border[0];
+  for (int i = last; i < w.taps; ++i) out[i] = border[image.width - 1];
+  if (slope == 0) return copy_few(border + w.left + first, last - first, out + first);
+  if (!line.contains(w.left + first, w.left + last)) {
+    for (int i = first; i < last; ++i) out[i] = line(w.left + i);
+    return;
+  }
+  const T* pixel = border + w.left + line.whole;
+  for (int i = first; i < last; ++i) out[i] = ShiftedLine<T>::between(pixel[i], pixel[i + 1], line.part);
 }
 
 }  // namespace
 
 template <class T>
 void fill_border_window(ImageView<T> image, const BorderWindow& place, std::vector<T>& window) {
-  window.assign(static_cast<std::size_t>(place.taps) * static_cast<std::size_t>(place.pitch), T{});
+  // What is left from before in columns that have no weight is only multiplied by 0.
+  window.resize(static_cast<std::size_t>(place.taps) * static_cast<std::size_t>(place.pitch));
   const int first = std::clamp(-place.left, 0, place.taps);
   const int last = std::clamp(image.width - place.left, first, place.taps);
   for (int j = 0; j < place.taps; ++j) {
     const int y = place.top + j;
     T* out = window.data() + static_cast<std::ptrdiff_t>(j) * place.pitch;
     if (y >= 0 && y < image.height)
-      std::copy(image.row(y) + place.left + first, image.row(y) + place.left + last, out + first);
+      copy_few(image.row(y) + place.left + first, last - first, out + first);
     else
-      fill_row_outside(image, place, y, out);
+      fill_row_outside(image, place, y, first, last, out);
   }
   fill_columns_outside(image, place, window);
 }

@@ -76,6 +76,35 @@ bool candidates(const ScanRow<T>& row, int width, const ScanRule<T>& rule, std::
   return any;
 }
 
+template <class T>
+void halve_scalar(const T* a, const T* b, std::size_t begin, std::size_t end, T* out) {
+  for (std::size_t x = begin; x < end; ++x)
+    out[x] = static_cast<T>((std::uint32_t{a[2 * x]} + a[2 * x + 1] + b[2 * x] + b[2 * x + 1] + 2) / 4);
+}
+
+void halve8(const std::uint8_t* a, const std::uint8_t* b, std::size_t count, std::uint8_t* out) {
+  std::size_t x = 0;
+#if HWY_TARGET != HWY_SCALAR  // which has no vectors of two halves
+  const hn::ScalableTag<std::uint16_t> d;
+  const hn::Repartition<std::uint8_t, decltype(d)> d_pixel;
+  const hn::Rebind<std::uint8_t, decltype(d)> d_half;
+  const std::size_t lanes = hn::Lanes(d);
+  const auto low = hn::Set(d, std::uint16_t{255}), two = hn::Set(d, std::uint16_t{2});
+  for (; x + lanes <= count; x += lanes) {
+    const auto p = hn::BitCast(d, hn::LoadU(d_pixel, a + 2 * x)),
+               q = hn::BitCast(d, hn::LoadU(d_pixel, b + 2 * x));
+    const auto upper = hn::Add(hn::And(p, low), hn::ShiftRight<8>(p)),
+               lower = hn::Add(hn::And(q, low), hn::ShiftRight<8>(q));
+    const auto mean = hn::ShiftRight<2>(hn::Add(hn::Add(upper, lower), two));
+    hn::StoreU(hn::DemoteTo(d_half, hn::BitCast(hn::RebindToSigned<decltype(d)>(), mean)), d_half, out + x);
+  }
+#endif
+  halve_scalar(a, b, x, count, out);
+}
+void halve16(const std::uint16_t* a, const std::uint16_t* b, std::size_t count, std::uint16_t* out) {
+  halve_scalar(a, b, 0, count, out);
+}
+
 std::uint8_t largest8(const std::uint8_t* pixels, std::size_t count) { return largest(pixels, count); }
 std::uint16_t largest16(const std::uint16_t* pixels, std::size_t count) { return largest(pixels, count); }
 bool candidates8(const ScanRow<std::uint8_t>& row, int width, const ScanRule<std::uint8_t>& rule,
@@ -96,6 +125,8 @@ namespace lightstripe {
 
 HWY_EXPORT(largest8);
 HWY_EXPORT(largest16);
+HWY_EXPORT(halve8);
+HWY_EXPORT(halve16);
 HWY_EXPORT(candidates8);
 HWY_EXPORT(candidates16);
 
@@ -104,6 +135,12 @@ std::uint8_t largest_pixel(const std::uint8_t* pixels, std::size_t count) {
 }
 std::uint16_t largest_pixel(const std::uint16_t* pixels, std::size_t count) {
   return HWY_DYNAMIC_DISPATCH(largest16)(pixels, count);
+}
+void halve_rows(const std::uint8_t* a, const std::uint8_t* b, std::size_t count, std::uint8_t* out) {
+  HWY_DYNAMIC_DISPATCH(halve8)(a, b, count, out);
+}
+void halve_rows(const std::uint16_t* a, const std::uint16_t* b, std::size_t count, std::uint16_t* out) {
+  HWY_DYNAMIC_DISPATCH(halve16)(a, b, count, out);
 }
 bool mark_candidates(const ScanRow<std::uint8_t>& row, int width, const ScanRule<std::uint8_t>& rule,
                      std::uint64_t* masks) {

@@ -24,6 +24,10 @@ T largest_pixel(ImageView<T> image) {
   return largest;
 }
 
+/// Means of 2 x 2 pixels of two rows, rounded: `count` pixels of the coarser one.
+void halve_rows(const std::uint8_t* a, const std::uint8_t* b, std::size_t count, std::uint8_t* out);
+void halve_rows(const std::uint16_t* a, const std::uint16_t* b, std::size_t count, std::uint16_t* out);
+
 /// A row and its neighbours `reach` pixels above and below (outside the image: the row of zeros).
 template <class T>
 struct ScanRow {

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "core/robust.h"
+#include "extraction/follow/direction_guided_ridge.h"
 
 namespace lightstripe {
 namespace {
@@ -24,48 +25,71 @@ struct MeanProfile {
   int rows = 0;
 };
 
-/// One row or column, around the line's pixel.
+/// A profile under work: the rows that are read forwards, and those that are read backwards.
+struct ProfileSums {
+  std::span<float> forwards, backwards;
+};
+
+/// One row or column, around the line's pixel. Profiles begin on the side that the points' normals come from,
+/// so that rows and columns of one stretch agree.
 template <class T>
-void add_row(ImageView<T> image, const StripePoint& p, int reach, std::vector<float>& profile,
+void add_row(ImageView<T> image, const StripePoint& p, int reach, const ProfileSums& sums,
              MeanProfile& mean) {
   const bool is_row = std::abs(p.normal_x) >= std::abs(p.normal_y);
-  const int x = static_cast<int>(std::floor(p.x + 0.5)), y = static_cast<int>(std::floor(p.y + 0.5));
+  const int x = nearest_pixel(p.x), y = nearest_pixel(p.y);
   const int at = is_row ? x : y, count = is_row ? image.width : image.height;
   if (!image.contains(x, y) || at < reach || at + reach >= count) return;
-  const std::ptrdiff_t step = is_row ? 1 : image.stride;
-  // On the side of the point's normal first, so that rows and columns of one stretch agree.
-  const std::ptrdiff_t sign = (is_row ? p.normal_x : p.normal_y) >= 0 ? step : -step;
-  const T* pixel = image.row(y) + x - reach * sign;
-  for (float& sum : profile) {
-    sum += static_cast<float>(*pixel);
-    pixel += sign;
+  const bool forwards = (is_row ? p.normal_x : p.normal_y) >= 0;
+  float* sum = forwards ? sums.forwards.data() : sums.backwards.data();
+  if (is_row) {
+    const T* pixel = image.row(y) + x - reach;
+    for (int k = 0; k <= 2 * reach; ++k) sum[k] += static_cast<float>(pixel[k]);
+  } else {
+    const T* pixel = image.row(y - reach) + x;
+    for (int k = 0; k <= 2 * reach; ++k, pixel += image.stride) sum[k] += static_cast<float>(*pixel);
   }
   const double off = is_row ? p.x - x : p.y - y;
-  mean.centre += sign > 0 ? off : -off;
+  mean.centre += forwards ? off : -off;
   mean.cosine += std::abs(is_row ? p.normal_x : p.normal_y);
   ++mean.rows;
 }
 
-/// Where a kernel of `sigma` px along the row sees the profile's centre, from mean.centre; px.
+/// Sums of a profile under a Gaussian and its derivatives.
+struct GaussianSums {
+  double weight = 0, grey = 0;               ///< of the Gaussian, and with the grey values
+  double slope_grey = 0;                     ///< of its first derivative
+  double curvature = 0, curvature_grey = 0;  ///< of its second one
+
+  void add(double distance, double sigma2, double gauss, float value) {
+    const double q = (distance * distance / sigma2 - 1) * gauss, v = value;
+    weight += gauss;
+    grey += gauss * v;
+    slope_grey += distance * gauss * v;
+    curvature += q;
+    curvature_grey += q * v;
+  }
+};
+
+/// Where a kernel of `sigma` px along the row sees the profile's centre, from `centre`; px.
 double aside_at(std::span<const float> profile, double centre, double sigma) {
-  const int reach = static_cast<int>(profile.size() / 2);
-  double first = 0, second = 0, weights = 0, moment = 0;
-  for (int k = -reach; k <= reach; ++k) {
-    const double d = k - centre, g = std::exp(-0.5 * d * d / (sigma * sigma));
-    const double q = d * d / (sigma * sigma) - 1, grey = profile[static_cast<std::size_t>(k + reach)];
-    first += d * g * grey;
-    second += q * g * grey;
-    weights += q * g;
-    moment += g;
-  }
+  const int reach = static_cast<int>(profile.size() / 2),
+            middle = std::clamp(static_cast<int>(centre), -reach, reach);
+  const double sigma2 = sigma * sigma, first = middle - centre;
+  // From pixel to pixel a Gaussian changes by a factor that itself changes by a constant one.
+  const double turn = std::exp(-1 / sigma2), top = std::exp(-0.5 * first * first / sigma2);
+  GaussianSums sums;
+  const auto add_side = [&](int sign, int from) {
+    double gauss = top, factor = std::exp((-sign * first - 0.5) / sigma2);
+    for (int k = 0; std::abs(middle + sign * k) <= reach; ++k, gauss *= factor, factor *= turn)
+      if (k >= from)
+        sums.add(first + sign * k, sigma2, gauss,
+                 profile[static_cast<std::size_t>(middle + sign * k + reach)]);
+  };
+  add_side(1, 0);
+  add_side(-1, 1);
   // The sampled second derivative of a constant must vanish.
-  double mean = 0;
-  for (int k = -reach; k <= reach; ++k) {
-    const double d = k - centre;
-    mean += std::exp(-0.5 * d * d / (sigma * sigma)) * profile[static_cast<std::size_t>(k + reach)];
-  }
-  second -= weights * mean / std::max(moment, 1e-9);
-  return second < 0 ? -first / second : 0.0;
+  const double second = sums.curvature_grey - sums.curvature * sums.grey / std::max(sums.weight, 1e-9);
+  return second < 0 ? -sums.slope_grey / second : 0.0;
 }
 
 /// The shift that one stretch [begin, end) points at, px across the line.
@@ -73,15 +97,18 @@ template <class T>
 double shift_of(ImageView<T> image, std::span<const StripePoint> points, double sigma,
                 std::vector<float>& profile) {
   const int reach = static_cast<int>(std::ceil(3 * kBroad * sigma)) + 1;
-  profile.assign(static_cast<std::size_t>(2 * reach + 1), 0.0F);
+  const auto size = static_cast<std::size_t>(2 * reach + 1);
+  profile.assign(2 * size, 0.0F);
+  const ProfileSums sums{std::span(profile).first(size), std::span(profile).last(size)};
   MeanProfile mean{0, 0, 0};
   for (const StripePoint& p : points)
-    if ((p.flags & kStripeBridged) == 0) add_row(image, p, reach, profile, mean);
+    if ((p.flags & kStripeBridged) == 0) add_row(image, p, reach, sums, mean);
+  for (std::size_t k = 0; k < size; ++k) sums.forwards[k] += sums.backwards[size - 1 - k];
   if (mean.rows < 4) return 0;
   const double scale = sigma * mean.rows / mean.cosine, centre = mean.centre / mean.rows;
-  const double own = aside_at(profile, centre, scale);
-  const double narrow = aside_at(profile, centre, kNarrow * scale),
-               broad = aside_at(profile, centre, kBroad * scale);
+  const double own = aside_at(sums.forwards, centre, scale);
+  const double narrow = aside_at(sums.forwards, centre, kNarrow * scale),
+               broad = aside_at(sums.forwards, centre, kBroad * scale);
   return (broad - own) - (narrow - own);
 }
 

@@ -5,8 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <numbers>
+#include <type_traits>
+
+#include "extraction/follow/direction_guided_ridge.h"
 
 namespace lightstripe {
 namespace {
@@ -35,9 +39,23 @@ Crossing crossing_at(const StripePoint& p) {
   const bool is_row = std::abs(p.normal_x) >= std::abs(p.normal_y);
   const double across = is_row ? p.normal_x : p.normal_y, along = is_row ? p.normal_y : p.normal_x;
   const double place = is_row ? p.y : p.x, centre = is_row ? p.x : p.y;
-  const int index = static_cast<int>(std::floor(place + 0.5));
+  const int index = nearest_pixel(place);
   // The line goes on in its own direction from the point to the row's middle.
   return {is_row, index, centre - (index - place) * along / across, std::abs(across)};
+}
+
+/// Of `taps` pixels, `step` elements from one to the next. Four sums, which do not wait for each
+/// other; a step of 1 that the compiler knows makes vectors of them.
+template <class T, class Step>
+float weighted_sum(const T* pixel, Step step, const float* weights, int taps) {
+  std::array<float, 4> sums{};
+  int k = 0;
+  for (; k + 4 <= taps; k += 4, pixel += 4 * step)
+    for (std::size_t i = 0; i < 4; ++i)
+      sums[i] +=
+          weights[k + static_cast<int>(i)] * static_cast<float>(pixel[static_cast<std::ptrdiff_t>(i) * step]);
+  for (; k < taps; ++k, pixel += step) sums[0] += weights[k] * static_cast<float>(*pixel);
+  return (sums[0] + sums[1]) + (sums[2] + sums[3]);
 }
 
 /// The centre of one row less that of the line, px along the row, for kernels along the row only.
@@ -52,8 +70,8 @@ double row_offset(ImageView<T> image, const DerivativeKernels& kernels, const Cr
   const int first = at.pixel - kernels.radius;
   float slope = 0;
   if (first >= 0 && first + kernels.taps <= count) {
-    const T* pixel = line + first * step;
-    for (int k = 0; k < kernels.taps; ++k, pixel += step) slope += weights[k] * static_cast<float>(*pixel);
+    slope = step == 1 ? weighted_sum(line + first, std::integral_constant<int, 1>(), weights, kernels.taps)
+                      : weighted_sum(line + first * step, step, weights, kernels.taps);
   } else {
     for (int k = 0; k < kernels.taps; ++k)
       slope += weights[k] * static_cast<float>(line[std::clamp(first + k, 0, count - 1) * step]);
@@ -68,9 +86,10 @@ bool bends_at(const LineSet& lines, const LineRange& r, std::size_t i, double si
   const std::size_t middle = std::clamp(i, r.begin + reach, r.end - 1 - reach);
   const StripePoint &a = lines.points[middle - reach], &b = lines.points[middle],
                     &c = lines.points[middle + reach];
-  const double along_x = c.x - a.x, along_y = c.y - a.y, chord = std::hypot(along_x, along_y);
-  const double sagitta = std::abs((b.x - a.x) * along_y - (b.y - a.y) * along_x) / std::max(chord, 1e-9);
-  return 8 * sagitta * 40 * sigma > chord * chord;
+  const double along_x = c.x - a.x, along_y = c.y - a.y, square = along_x * along_x + along_y * along_y;
+  // 8 * sagitta * 40 sigma > chord^2, all of it squared: the sagitta is this product over the chord.
+  const double product = 8 * 40 * sigma * ((b.x - a.x) * along_y - (b.y - a.y) * along_x);
+  return product * product > square * square * square;
 }
 
 /// Each row's centre less the line's, px across the line; rows in order, NaN where one does not follow the
@@ -100,25 +119,38 @@ double collect_offsets(ImageView<T> image, const DerivativeKernels& kernels, con
   return used > 0 ? cosines / used : 1;
 }
 
+/// Of each value, how many follow each other up to it without a gap.
+void count_joined(const std::vector<float>& offsets, std::vector<std::uint32_t>& joined) {
+  joined.resize(offsets.size());
+  std::uint32_t run = 0;
+  for (std::size_t i = 0; i < offsets.size(); ++i) joined[i] = run = offsets[i] == offsets[i] ? run + 1 : 0;
+}
+
+/// The sum of what `values` hold up to `limit`. Four sums, which do not wait for each other.
+double bounded_sum(const std::vector<float>& values, float limit) {
+  std::array<float, 4> sums{};
+  std::size_t i = 0;
+  for (; i + 4 <= values.size(); i += 4)
+    for (std::size_t k = 0; k < 4; ++k) sums[k] += std::min(values[i + k], limit);
+  for (; i < values.size(); ++i) sums[0] += std::min(values[i], limit);
+  return double{sums[0]} + double{sums[1]} + double{sums[2]} + double{sums[3]};
+}
+
 /// A sixth of the mean squared second difference of rows `lag` apart, which bends of the line hardly touch;
 /// single values of more than 16 times the mean count as that much, so that a spot or a crossing does not
 /// decide. -1 for too few rows.
-double second_difference(const std::vector<float>& offsets, std::size_t lag, std::vector<float>& squares) {
+double second_difference(const RowScatterWorkspace& w, std::size_t lag, std::vector<float>& squares) {
+  const std::vector<float>& offsets = w.offsets;
   squares.clear();
-  for (std::size_t i = 0; i + 2 * lag < offsets.size(); ++i) {
-    const float difference = offsets[i + 2 * lag] - 2 * offsets[i + lag] + offsets[i];
-    bool joined = difference == difference;
-    for (std::size_t k = 1; k < 2 * lag; ++k) joined = joined && offsets[i + k] == offsets[i + k];
-    if (joined) squares.push_back(difference * difference * (1.0F / 6));
+  for (std::size_t i = 2 * lag; i < offsets.size(); ++i) {
+    if (w.joined[i] <= 2 * lag) continue;
+    const float difference = offsets[i] - 2 * offsets[i - lag] + offsets[i - 2 * lag];
+    squares.push_back(difference * difference * (1.0F / 6));
   }
   if (squares.size() < kLeastRows) return -1;
-  double mean = std::numeric_limits<double>::max();
-  for (int pass = 0; pass < 3; ++pass) {
-    const double limit = pass == 0 ? mean : 16 * mean;
-    double sum = 0;
-    for (const float s : squares) sum += std::min(double{s}, limit);
-    mean = sum / static_cast<double>(squares.size());
-  }
+  double limit = std::numeric_limits<float>::max(), mean = 0;
+  for (int pass = 0; pass < 3; ++pass, limit = 16 * mean)
+    mean = bounded_sum(squares, static_cast<float>(limit)) / static_cast<double>(squares.size());
   return mean;
 }
 
@@ -240,11 +272,12 @@ template <class T>
 RowDifferences look_at_rows(ImageView<T> image, const DerivativeKernels& kernels, const LineSet& lines,
                             const LineRange& range, RowScatterWorkspace& w) {
   const double cosine = collect_offsets(image, kernels, lines, range, w.offsets);
+  count_joined(w.offsets, w.joined);
   RowDifferences line;
   line.sigma = kernels.sigma;
   line.step = 1 / cosine;
   for (std::size_t k = 0; k < kLags; ++k) {
-    line.seen.at(k) = second_difference(w.offsets, k + 1, w.squares);
+    line.seen.at(k) = second_difference(w, k + 1, w.squares);
     if (!(line.seen.at(k) > 0)) return line;
   }
   line.rows = static_cast<double>(w.squares.size());

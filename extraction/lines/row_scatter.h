@@ -48,6 +48,7 @@ struct RowDifferences {
 struct RowScatterWorkspace {
   std::vector<float> offsets;  ///< px across the line, of each row; NaN between two stretches
   std::vector<float> squares;
+  std::vector<std::uint32_t> joined;  ///< values without a gap up to each of the offsets
 };
 
 /// Looks at one line in an image: each row's centre against the line, which the kernels have smoothed, so

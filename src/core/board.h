@@ -48,7 +48,7 @@ struct Target {
   }
   /// From the first corner to the farthest along x and y.
   Eigen::Vector2d extent() const {
-    const Eigen::Vector2d last = corner(num_corners() - 1);
+    Eigen::Vector2d last = corner(num_corners() - 1);
     if (type == TargetType::kAsymmetricCircles && rows > 1) return {(2 * columns - 1) * pitch_x, last.y()};
     return last;
   }
@@ -68,7 +68,10 @@ struct Target {
   }
 
  private:
-  double tag_edge(int i) const { return (i / 2) * (marker_mm + tag_gap_mm) + (i % 2) * marker_mm; }
+  double tag_edge(int i) const {
+    const int tag = i / 2, edge = i % 2;
+    return tag * (marker_mm + tag_gap_mm) + edge * marker_mm;
+  }
 };
 
 }  // namespace lightstripe

@@ -1,11 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The lightstripe authors
 // SPDX-License-Identifier: Apache-2.0
 // yaml-cpp's events -> YamlNode.
+#include <fmt/format.h>
 #include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/exceptions.h>
 #include <yaml-cpp/mark.h>
 #include <yaml-cpp/parser.h>
 
+#include <algorithm>
 #include <optional>
 #include <sstream>
 #include <unordered_map>
@@ -19,6 +21,10 @@ namespace {
 
 constexpr std::size_t kMaxFileBytes = std::size_t{16} << 20;
 constexpr std::size_t kMaxDepth = 64;
+// The parser takes a second for a megabyte: what is no settings file by far ends before.
+constexpr std::size_t kMaxValues = 200000;
+constexpr std::size_t kMaxLineBytes = std::size_t{256} << 10;  // it looks ahead to the end of a line
+constexpr const char* kCheckFile = "check that it is the right file";
 constexpr const char* kCheckSyntax = "correct the YAML syntax there";
 
 /// A trouble found while the tree grows; the dotted key is not known yet.
@@ -61,6 +67,7 @@ class TreeBuilder : public YAML::EventHandler {
     std::optional<YamlNode> key;
   };
   std::vector<Level> open_;
+  std::size_t num_values_ = 0;
 
   void open(YamlNode::Kind kind, const YAML::Mark& mark, const std::string& tag) {
     if (open_.size() >= kMaxDepth)
@@ -73,6 +80,8 @@ class TreeBuilder : public YAML::EventHandler {
                 const std::string& value) {
     if (!tag.empty() && tag != "?" && tag != "!")
       throw Refusal{line_of(mark), "tags (!name) are not supported", "leave the tag out"};
+    if (++num_values_ > kMaxValues)
+      throw Refusal{line_of(mark), fmt::format("has more than {} values", kMaxValues), kCheckFile};
     YamlNode node;
     node.kind = kind;
     node.line = line_of(mark);
@@ -155,11 +164,24 @@ bool is_utf8(const std::string& text) {
   return expected == 0;
 }
 
+/// Number of the first line that is too long, 0 without one.
+int too_long_line(const std::string& text) {
+  int line = 1;
+  for (std::size_t begin = 0; begin < text.size(); ++line) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    if (end - begin > kMaxLineBytes) return line;
+    begin = end + 1;
+  }
+  return 0;
+}
+
 }  // namespace
 
 YamlNode parse_yaml(const std::string& text, const YamlPlace& place) {
   if (text.find('\0') != std::string::npos || !is_utf8(text))
     fail_at(place, 0, "is not a text file in UTF-8", "check the path, or save it as UTF-8");
+  if (const int line = too_long_line(text))
+    fail_at(place, line, fmt::format("is longer than {} bytes", kMaxLineBytes), kCheckFile);
   TreeBuilder tree, beyond;
   try {
     std::istringstream stream(text);

@@ -81,8 +81,13 @@ TEST_F(WrongSessions, NoLaserInAnyPicture) {
 
 TEST_F(WrongSessions, LaserPicturesOfTheNextPose) {
   put_pairs([](int i) { return laser((i + 1) % kPoses); });
-  const auto result = calibrate(kPairs);
-  EXPECT_EQ(result.exit_code, 3) << result.err;
+  expect_refused(calibrate(kPairs),
+                 "laser picture 0.png fits board picture 1.png: are the files shifted by 1?");
+}
+
+TEST_F(WrongSessions, LaserPicturesOfReversedPoses) {
+  put_pairs([](int i) { return laser(kPoses - 1 - i); });
+  expect_refused(calibrate(kPairs), "fits board picture 6.png: are the pairs mixed up?");
 }
 
 TEST_F(WrongSessions, SwappedFolders) {
@@ -100,6 +105,8 @@ TEST_F(WrongSessions, AnotherNumberOfCorners) {
   put_pairs(laser);
   expect_refused(calibrate(kPairs, "{type: checkerboard, inner_corners: [10, 8], square: 10}"),
                  "all pictures show 11 x 8 inner corners, the session says 10 x 8");
+  expect_refused(calibrate(kPairs, "{type: checkerboard, inner_corners: [11, 9], square: 10}"),
+                 "all pictures show 11 x 8 inner corners, the session says 11 x 9");
 }
 
 TEST_F(WrongSessions, BoardsForTheCameraAloneAreAskedForByName) {

@@ -77,5 +77,14 @@ TEST(OpenCvBoards, LeftAndRightAreOneRig) {
   EXPECT_LT(rotation_angle(left_from_right.rotation) * 57.3, 1.5);
 }
 
+TEST(OpenCvBoards, AreNotFoundAsBoardsOfAnotherSize) {
+  SKIP_WITHOUT_DATA();
+  // 9 x 7: four of the pictures once were, with the outer edge of the squares as a row; 8 x 5: two.
+  for (const auto& [columns, rows] : {std::pair{9, 7}, {8, 5}, {10, 7}, {7, 7}}) {
+    const Target wrong{TargetType::kCheckerboard, columns, rows, 25, 25};
+    EXPECT_TRUE(observe("left", wrong).views.empty()) << columns << " x " << rows;
+  }
+}
+
 }  // namespace
 }  // namespace lightstripe

@@ -10,9 +10,11 @@
 
 #include "core/rig.h"
 #include "io/atomic_file.h"
+#include "io/growing_tiff.h"
 #include "io/rig_file.h"
 #include "io/tables.h"
 #include "measure/profile_formats.h"
+#include "pipeline/scan_journal.h"
 #include "reconstruct/cloud.h"
 
 namespace lightstripe {
@@ -74,6 +76,32 @@ void write_pictures(const fs::path& folder) {
   write_file(folder / "text.pgm", "P2\n# drawn by hand\n3 2\n15\n0 5 15\n1 2 3\n");
 }
 
+/// A recording of 8 bits and one of 16 bits, as they grow.
+void write_growing_tiff(const fs::path& folder) {
+  fs::create_directories(folder);
+  fs::remove(folder / "grown8.tif"), fs::remove(folder / "grown16.tif");
+  GrowingTiff narrow(folder / "grown8.tif"), wide(folder / "grown16.tif");
+  for (int page = 0; page < 3; ++page) {
+    Image8 image(7, 5);
+    Image16 deep(7, 5);
+    for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+      image.pixels[i] = static_cast<std::uint8_t>(7 * i + static_cast<std::size_t>(page));
+      deep.pixels[i] = static_cast<std::uint16_t>(999 * i + static_cast<std::size_t>(page));
+    }
+    narrow.append(image), wide.append(deep);
+  }
+}
+
+void write_journal(const fs::path& folder) {
+  std::uint32_t chain = 0;
+  ScanTally tally;
+  tally.next_frame = 3;
+  std::string text = sealed_line(journal_head("0123456789abcdef"), chain);
+  text += sealed_line(journal_skip({1, {0, "its picture is missing"}}), chain);
+  text += sealed_line(journal_entry(tally, {}, {}), chain);
+  write_file(folder / "cloud.partial.journal", text);
+}
+
 void write_seeds(const fs::path& folder) {
   write_file(folder / "rig_file/linear.yaml", rig_to_yaml(small_rig(MotionType::kLinear)));
   write_file(folder / "rig_file/rotary.yaml", rig_to_yaml(small_rig(MotionType::kRotary)));
@@ -98,7 +126,9 @@ void write_seeds(const fs::path& folder) {
     for (const auto& profile : small_profiles()) cloud.append(profile);
     cloud.finish();
   }
-  for (const std::string target : {"image_header", "picture"}) {
+  write_growing_tiff(folder / "tiff_pages");
+  write_journal(folder / "scan_journal");
+  for (const std::string target : {"image_header", "picture", "plain_pixels", "tiff_pages"}) {
     fs::create_directories(folder / target);
     write_pictures(folder / target);
   }

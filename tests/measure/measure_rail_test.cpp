@@ -110,6 +110,25 @@ TEST_F(MeasureRail, OneSideLeavesTheWidthUnknown) {
   EXPECT_FALSE(rail.head_area_loss.value);
 }
 
+// A head alone, turned, new and worn: its own width and radius, and no wear.
+TEST_F(MeasureRail, AHeadAloneHasAWidthAndARadiusButNoWear) {
+  for (const auto& [vertical, side] : {std::pair{0.0, 0.0}, {1.0, 0.3}}) {
+    const Outline worn = worn_rail(nominal, vertical, side);
+    Section section = rail_section(worn, {.noise_mm = 0.01, .lower_part = false});
+    std::erase_if(section, [](const SectionPoint& p) { return p.position.y() < -34; });
+    for (SectionPoint& p : section) p.position = Eigen::Rotation2Dd(0.03) * p.position + Vector2d(5, -200);
+    const RailMeasurement rail = measured(section);
+    EXPECT_NEAR(value(rail.head_width),
+                reach(worn, {0, -14 - vertical}, {1, 0}) + reach(worn, {0, -14 - vertical}, {-1, 0}), 0.05)
+        << vertical;
+    EXPECT_NEAR(value(rail.crown_radius), 300, 15);
+    for (const Estimate& wear : {rail.vertical_wear, rail.side_wear, rail.head_area_loss, rail.inclination}) {
+      EXPECT_FALSE(wear.value);
+      EXPECT_THAT(wear.reason, HasSubstr("head only"));
+    }
+  }
+}
+
 TEST_F(MeasureRail, AHoleInTheCrownLeavesVerticalWearUnknown) {
   Section section = rail_section(nominal, {});
   std::erase_if(section,
