@@ -132,6 +132,12 @@ int run(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ExtrasError&) {
     return unknown_arguments(app);
+  } catch (const CLI::RequiredError& error) {
+    // A mistyped option is told before what it seems to leave out.
+    const auto extras = app.remaining(true);
+    if (!extras.empty() && extras.front().starts_with("-")) return unknown_arguments(app);
+    lightstripe::say_error(in_our_words(error) + "; see " + command_line_help(app));
+    return lightstripe::kExitUsage;
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);
     lightstripe::say_error(in_our_words(error) + "; see " + command_line_help(app));

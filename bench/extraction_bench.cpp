@@ -10,9 +10,9 @@
 #include <opencv2/core/utility.hpp>
 #include <string>
 
-#include "apps/bench_references.h"
 #include "extraction/extract_stripes.h"
 #include "extraction/workspace.h"
+#include "truth/bench_references.h"
 #include "whole_scenes.h"
 
 namespace lightstripe {

@@ -223,7 +223,7 @@ Conicity run_conicity(const ConicityJob& job) {
       left_wheel, read_rolling_wheel(other(job.wheel_right, job.wheel), job, job.wheel_sigma_mm)};
   const std::array<RollingProfile, kSides> rails{
       left_rail, read_rolling_rail(other(job.rail_right, job.rail), job, job.rail_sigma_mm)};
-  const Conicity conicity = equivalent_conicity(wheels, rails, job.options);
+  Conicity conicity = equivalent_conicity(wheels, rails, job.options);
   if (!conicity.usable()) return conicity;
   write_file(job.output, conicity_table(conicity));
   if (!job.contacts.empty()) write_file(job.contacts, contact_table(conicity));

@@ -12,6 +12,7 @@
 #include "io/atomic_file.h"
 #include "io/number_text.h"
 #include "io/tables.h"
+#include "io/yaml_binding.h"
 
 namespace lightstripe {
 namespace {
@@ -41,6 +42,22 @@ class GrowingTable {
   std::ofstream out_;
 };
 
+/// Takes a folder away again that nothing was recorded into.
+class NewFolder {
+ public:
+  explicit NewFolder(const fs::path& place) : place_(place), was_there_(fs::exists(place)) {}
+  ~NewFolder() {
+    std::error_code ignored;
+    if (!was_there_ && fs::is_directory(place_, ignored)) fs::remove(place_, ignored);  // an empty one only
+  }
+  NewFolder(const NewFolder&) = delete;
+  NewFolder& operator=(const NewFolder&) = delete;
+
+ private:
+  fs::path place_;
+  bool was_there_;
+};
+
 std::string row_of(const LiveFrame& frame, const std::string& file) {
   std::string row =
       fmt::format("{},{},{},{},{},", frame.frame, frame.status == FrameStatus::kWhole ? file : "",
@@ -68,9 +85,9 @@ std::string value_text(const std::optional<double>& value) { return value ? shor
 void write_settings(const RecordJob& job, const RecordSummary& summary, bool over) {
   const CameraSettings& settings = summary.settings;
   std::string text =
-      fmt::format("source: '{}'\ncamera: '{}'\nexposure_us: {}\ngain: {}\nframes_per_second: {}\n",
-                  job.source, settings.camera, value_text(settings.exposure_us), value_text(settings.gain),
-                  value_text(settings.frames_per_second));
+      fmt::format("source: {}\ncamera: {}\nexposure_us: {}\ngain: {}\nframes_per_second: {}\n",
+                  yaml_text(job.source), yaml_text(settings.camera), value_text(settings.exposure_us),
+                  value_text(settings.gain), value_text(settings.frames_per_second));
   if (over)
     text += fmt::format("frames: {}\nwhole: {}\nincomplete: {}\nlost: {}\nseconds: {:.3f}\n", summary.frames,
                         summary.whole, summary.incomplete, summary.lost, summary.seconds);
@@ -96,6 +113,7 @@ std::optional<double> TravelOfFrames::at(const LiveFrame& frame) {
 
 RecordSummary record_frames(const RecordJob& job, const std::stop_token& stop,
                             const std::function<void(const RecordSummary&)>& progress) {
+  const NewFolder folder(job.folder);
   PictureRecorder pictures(job.folder, job.format);
   const auto source = open_live(job.source, {job.channel, 0});
   RecordSummary summary;

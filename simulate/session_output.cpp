@@ -124,16 +124,21 @@ void make_folders(const ImagePlan& plan, const fs::path& output_folder) {
   OwnFiles own(output_folder, kMarkerFile);
   own.refuse_foreign(planned);
   for (const fs::path& folder : folders) refuse_foreign_pictures(output_folder, folder, own);
+  const std::set<std::string> earlier = own.files();
+  std::error_code failure;
+  try {
+    own.claim(planned);
+  } catch (const Error&) {
+    fs::remove(output_folder, failure);  // only where it is empty: a full disk leaves nothing
+    throw;
+  }
   for (const fs::path& folder : folders) {
-    std::error_code failure;
     fs::create_directories(folder, failure);
     if (failure)
       throw Error(folder.string(), "cannot be made: " + failure.message(), "choose another output folder");
   }
-  const std::set<std::string> earlier = own.files();
   for (const std::string& file : earlier)
     if (planned.count(file) == 0) own.remove(file);
-  own.claim(planned);
 }
 
 void close_folders(const fs::path& output_folder) { OwnFiles(output_folder, kMarkerFile).release_missing(); }

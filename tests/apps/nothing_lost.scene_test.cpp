@@ -273,6 +273,15 @@ TEST_F(NothingLost, RunRecordsAreYamlWhateverTheNames) {
   EXPECT_THAT(parsed.out, HasSubstr("q'\"{}: #,\n\xe2\x80\xa8.csv"));
 }
 
+TEST_F(NothingLost, ARecordingsNotesAreYamlWhateverTheSourcesName) {
+  const auto result = shell(
+      "rm -rf \"it's: {\" quoted; cp -r scan/solo \"it's: {\"; $LS record \"it's: {/*.png\" -o quoted "
+      "--quiet && "
+      "/usr/bin/python3 -c 'import yaml; print(yaml.safe_load(open(\"quoted/record.yaml\"))[\"source\"])'");
+  if (result.err.find("No module") != std::string::npos) GTEST_SKIP() << "no Python yaml";
+  EXPECT_EQ(result.out, "it's: {/*.png\n") << result.err;
+}
+
 TEST_F(NothingLost, ASignalLeavesNoTemporaryFile) {
   fs::create_directories(at("signals"));
   for (const std::string command :
@@ -289,12 +298,26 @@ TEST_F(NothingLost, ASignalLeavesNoTemporaryFile) {
   }
 }
 
+TEST_F(NothingLost, AFullDiskAtTheVeryStartLeavesNothing) {
+  for (const std::string command :
+       {"simulate truth/scene.yaml -o full/sim", "reconstruct scan.yaml -o full/c.ply --profiles full/p.csv",
+        "extract scan/solo/*.png -o full/s.csv", "measure p.csv --kind rail -o full/m.csv",
+        "record 'scan/solo/*.png' -o full/rec", "view c.ply -o full/v.html",
+        "generate board -o full/b.svg"}) {
+    fs::remove_all(at("full"));
+    fs::create_directories(at("full"));
+    EXPECT_EQ(shell("ulimit -f 0; exec $LS " + command + " >&- 2>&-").exit_code, 1) << command;
+    EXPECT_TRUE(fs::is_empty(at("full"))) << command;
+  }
+}
+
 TEST_F(NothingLost, MistypedCommandsAndValuesGetOurWords) {
   const std::map<std::string, std::string> sentences{
       {"calibarte x.yaml", "calibarte: is no command, did you mean calibrate?"},
       {"measure p.csv --kind raill", "--kind: 'raill' is none of rail, wheel, features"},
       {"measure p.csv --kind rail --csv-style exel", "--csv-style: 'exel' is none of plain, excel"},
       {"measure p.csv --kind rail --reprot x", "did you mean --report?"},
+      {"measure p.csv --knid rail", "--knid: is no option here, did you mean --kind?"},
       {"measure p.csv --kind rail --plot abc", "--plot: 'abc' is no number"}};
   for (const auto& [command, sentence] : sentences) {
     const auto result = in(command);

@@ -112,7 +112,7 @@ TEST_F(MeasureRail, OneSideLeavesTheWidthUnknown) {
 
 // A head alone, turned, new and worn: its own width and radius, and no wear.
 TEST_F(MeasureRail, AHeadAloneHasAWidthAndARadiusButNoWear) {
-  for (const auto& [vertical, side] : {std::pair{0.0, 0.0}, {0.0, 0.5}, {1.0, 0.3}}) {
+  for (const auto& [vertical, side] : {std::pair{0.0, 0.0}, {1.0, 0.3}}) {
     const Outline worn = worn_rail(nominal, vertical, side);
     Section section = rail_section(worn, {.noise_mm = 0.01, .lower_part = false});
     std::erase_if(section, [](const SectionPoint& p) { return p.position.y() < -34; });

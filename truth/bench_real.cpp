@@ -1,17 +1,17 @@
 // SPDX-FileCopyrightText: 2026 The lightstripe authors
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/bench_real.h"
+#include "truth/bench_real.h"
 
 #include <algorithm>
 #include <chrono>
 #include <functional>
 
-#include "apps/bench_references.h"
 #include "core/robust.h"
 #include "extraction/extract_stripes.h"
 #include "extraction/workspace.h"
 #include "io/images.h"
 #include "simulate/real_stripe.h"
+#include "truth/bench_references.h"
 
 namespace lightstripe {
 namespace {

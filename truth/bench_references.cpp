@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The lightstripe authors
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/bench_references.h"
+#include "truth/bench_references.h"
 
 #include <cmath>
 #include <numbers>
