@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 
 namespace lightstripe {
@@ -95,6 +96,31 @@ double sigma_of_sum(const ErrorAlong& error, const std::vector<double>& places,
   }
   return std::sqrt(error.own_mm * error.own_mm * own +
                    error.shared_mm * error.shared_mm * std::max(0.0, shared));
+}
+
+double sigma_of_sum(const ErrorAlong& error, const std::vector<PlaceOnStripe>& places,
+                    const std::vector<double>& factors) {
+  struct Stripe {
+    std::vector<double> places, factors;
+  };
+  std::map<int, Stripe> stripes;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    Stripe& stripe = stripes[places[i].chain];
+    stripe.places.push_back(places[i].along_mm), stripe.factors.push_back(factors[i]);
+  }
+  double variance = 0;
+  for (const auto& [chain, stripe] : stripes)
+    variance += std::pow(sigma_of_sum(error, stripe.places, stripe.factors), 2);
+  return std::sqrt(variance);
+}
+
+ErrorAlong where_points_scatter(const ErrorAlong& error, double here_mm, int count) {
+  const double usual = std::hypot(error.own_mm, error.shared_mm);
+  const double by_chance = 1 + 3 / std::sqrt(2.0 * count);
+  ErrorAlong local = error;
+  if (here_mm > by_chance * usual)
+    local.own_mm = std::sqrt(error.own_mm * error.own_mm + here_mm * here_mm - usual * usual);
+  return local;
 }
 
 Eigen::Matrix3d gradient_covariance(const ErrorAlong& error, const Section& section,

@@ -26,6 +26,20 @@ ErrorAlong error_along(const Section& section, const std::vector<FitPoint>& poin
 double sigma_of_sum(const ErrorAlong& error, const std::vector<double>& places,
                     const std::vector<double>& factors);
 
+/// Where a sample of a fit lies: mm along the surface, and on which stripe.
+struct PlaceOnStripe {
+  double along_mm = 0;
+  int chain = 0;
+};
+
+/// The same of points on several stripes, which share nothing with each other.
+double sigma_of_sum(const ErrorAlong& error, const std::vector<PlaceOnStripe>& places,
+                    const std::vector<double>& factors);
+
+/// The error where points scatter by `here_mm` about a fit of `count` of them: clearly more than the
+/// section's points elsewhere is their own.
+ErrorAlong where_points_scatter(const ErrorAlong& error, double here_mm, int count);
+
 /// Covariance of the normal equations' right side (turn about the reference's origin; shift u, v), the
 /// points' weights held: H^-1 (this) H^-1 is the pose's.
 Eigen::Matrix3d gradient_covariance(const ErrorAlong& error, const Section& section,

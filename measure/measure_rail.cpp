@@ -53,18 +53,20 @@ Estimate face_angle(const PlacedSection& placed, int side, double gauge_v) {
   if (gauge_v - lowest < kFewestMm) return Estimate::unknown("too little of the gauge face is left");
   const double middle = (gauge_v + lowest) / 2;
   std::vector<Sample1> face;
+  std::vector<PlaceOnStripe> places;
   double first = 1e300, last = -1e300;
   for (std::size_t i = 0; i < placed.points.size(); ++i) {
     const Vector2d& p = placed.points[i];
     if (p.x() * side < 20 || p.y() > gauge_v - 0.5 || p.y() < lowest) continue;
     face.push_back({p.y() - middle, p.x() * side, placed.section[i].weight});
+    places.push_back({p.y(), placed.section[i].chain});
     first = std::min(first, p.y()), last = std::max(last, p.y());
   }
   const auto fit = fit_polynomial(face, 1, 0.005);
   if (!fit || last - first < kFewestMm) return Estimate::unknown("gauge face not seen");
-  // Two stretches of the face, one at either end, each off by the stretch error.
-  const double stretch = placed.registration.stretch_error_mm * std::sqrt(2.0) / (last - first);
-  const double local = std::hypot(fit->rms * std::sqrt(fit->slope_factor), stretch);
+  const double local =
+      sigma_of_sum(where_points_scatter(placed.registration.error, fit->rms, fit->num_samples), places,
+                   influences(face, *fit, 1, 0, 1));
   const double turn = std::sqrt(placed.registration.covariance(0, 0));
   return Estimate::known(-std::atan(fit->slope) * kDegrees, std::hypot(local, turn) * kDegrees);
 }
@@ -75,18 +77,20 @@ Estimate crown_radius(const PlacedSection& placed, const HeadTop& top) {
   constexpr double kHalfWidthMm = 10, kFlattestMm = 5000;
   if (!top.reason.empty()) return Estimate::unknown(top.reason);
   std::vector<Sample1> crown;
+  std::vector<PlaceOnStripe> places;
   for (std::size_t i = 0; i < placed.points.size(); ++i) {
     const Vector2d& p = placed.points[i];
-    if (std::abs(p.x()) < kHalfWidthMm && std::abs(p.y() - top.v) < 2)
-      crown.push_back({p.x(), p.y(), placed.section[i].weight});
+    if (std::abs(p.x()) >= kHalfWidthMm || std::abs(p.y() - top.v) >= 2) continue;
+    crown.push_back({p.x(), p.y(), placed.section[i].weight});
+    places.push_back({p.x(), placed.section[i].chain});
   }
   const auto fit = fit_polynomial(crown, 2, 0.005);
   if (!fit || crown.size() < 12) return Estimate::unknown("crown not seen");
   if (fit->curvature > -1 / kFlattestMm) return Estimate::unknown("crown is flat or hollow");
   const double radius = -std::pow(1 + fit->slope * fit->slope, 1.5) / fit->curvature;
-  // sigma of the curvature of a parabola through n even samples over +-h: 13.4 s / (h^2 sqrt n)
-  const double curvature_sigma = 13.4 * fit->rms / (kHalfWidthMm * kHalfWidthMm) *
-                                 std::sqrt(placed.registration.correlated_points / fit->num_samples);
+  const double curvature_sigma =
+      sigma_of_sum(where_points_scatter(placed.registration.error, fit->rms, fit->num_samples), places,
+                   influences(crown, *fit, 2, 0, 2));
   return Estimate::known(radius, radius * radius * curvature_sigma);
 }
 

@@ -42,12 +42,8 @@ double sigma_at(const PolynomialFit& fit, const std::vector<Sample1>& samples, i
   std::vector<double> places;
   for (const Sample1& s : samples) places.push_back(steep * s.t);
   const double here = std::max(fit.rms / steep, kMinScaleMm);
-  const double usual = std::hypot(error.own_mm, error.shared_mm);
-  const double by_chance = 1 + 3 / std::sqrt(2.0 * fit.num_samples);
-  ErrorAlong local = error;
-  if (here > by_chance * usual)
-    local.own_mm = std::sqrt(error.own_mm * error.own_mm + here * here - usual * usual);
-  return steep * sigma_of_sum(local, places, influences(samples, fit, degree, t));
+  return steep * sigma_of_sum(where_points_scatter(error, here, fit.num_samples), places,
+                              influences(samples, fit, degree, t));
 }
 
 /// The samples' polynomial at `t`, over `from`.

@@ -16,23 +16,41 @@ using Eigen::Vector2d;
 
 constexpr double kStripMm = 1.0, kHalfWidthMm = 30, kDepthMm = 12, kTrusted = 0.02;
 
-/// Per strip of the top: the median height over the reference, so that the outline's slope takes no part.
-std::map<int, double> heights_of(const PlacedSection& placed, int sensor) {
-  constexpr std::size_t kFewest = 2;
-  std::map<int, std::vector<double>> strips;
+/// One sensor's points in a strip of the top: their heights over the reference, so that the outline's slope
+/// takes no part.
+struct Strip {
+  std::vector<double> heights, places;
+};
+
+std::map<int, Strip> strips_of(const PlacedSection& placed, int sensor) {
+  std::map<int, Strip> strips;
   for (std::size_t i = 0; i < placed.points.size(); ++i) {
     const Vector2d& p = placed.points[i];
     if (placed.section[i].sensor != sensor || placed.section[i].weight < kTrusted ||
         std::abs(p.x()) > kHalfWidthMm)
       continue;
     const auto surface = placed.reference.surface_along({p.x(), 0}, {0, 1}, 0);
-    if (surface && std::abs(p.y() - *surface) < kDepthMm)
-      strips[static_cast<int>(std::floor(p.x() / kStripMm))].push_back(p.y() - *surface);
+    if (!surface || std::abs(p.y() - *surface) >= kDepthMm) continue;
+    Strip& strip = strips[static_cast<int>(std::floor(p.x() / kStripMm))];
+    strip.heights.push_back(p.y() - *surface), strip.places.push_back(p.x());
   }
-  std::map<int, double> out;
-  for (auto& [strip, heights] : strips)
-    if (heights.size() >= kFewest) out.emplace(strip, median(std::move(heights)));
-  return out;
+  std::erase_if(strips, [](const auto& one) { return one.second.heights.size() < 2; });
+  return strips;
+}
+
+/// 1-sigma of the sum of one sensor's strips, each times its factor.
+double sigma_of_strips(const ErrorAlong& error, const std::vector<const Strip*>& strips,
+                       const std::vector<double>& factors) {
+  constexpr double kMedianLoss = 1.2;  // variance of the median of a few points over that of their mean
+  std::vector<double> places, each;
+  for (std::size_t k = 0; k < strips.size(); ++k)
+    for (const double place : strips[k]->places) {
+      const auto n = static_cast<double>(strips[k]->places.size());
+      places.push_back(place), each.push_back(factors[k] / n);
+    }
+  ErrorAlong of_medians = error;
+  of_medians.own_mm *= std::sqrt(kMedianLoss);
+  return sigma_of_sum(of_medians, places, each);
 }
 
 }  // namespace
@@ -45,16 +63,22 @@ Estimate overlap_gap(const PlacedSection& placed) {
       sensors.push_back(point.sensor);
   if (sensors.size() < 2) return Estimate::unknown("one sensor only");
   std::sort(sensors.begin(), sensors.end());
-  const auto first = heights_of(placed, sensors[0]), second = heights_of(placed, sensors[1]);
+  const auto first = strips_of(placed, sensors[0]), second = strips_of(placed, sensors[1]);
   std::vector<Sample1> differences;
-  for (const auto& [strip, height] : first)
-    if (const auto other = second.find(strip); other != second.end())
-      differences.push_back({strip * kStripMm, height - other->second});
+  std::vector<const Strip*> of_first, of_second;
+  for (const auto& [place, strip] : first)
+    if (const auto other = second.find(place); other != second.end()) {
+      differences.push_back({place * kStripMm, median(strip.heights) - median(other->second.heights)});
+      of_first.push_back(&strip), of_second.push_back(&other->second);
+    }
   if (differences.size() < kFewestStrips)
     return Estimate::unknown("the sensors share less than 5 mm of the head");
   const auto fit = fit_polynomial(differences, 0, 0.003);
   if (!fit) return Estimate::unknown("the sensors' heights scatter");
-  return Estimate::known(fit->value, std::max(fit->rms, 0.003) * std::sqrt(fit->value_factor));
+  const std::vector<double> factors = influences(differences, *fit, 0, 0);
+  const ErrorAlong& error = placed.registration.error;
+  return Estimate::known(fit->value, std::hypot(sigma_of_strips(error, of_first, factors),
+                                                sigma_of_strips(error, of_second, factors)));
 }
 
 }  // namespace lightstripe

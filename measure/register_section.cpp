@@ -9,6 +9,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/robust.h"
 #include "measure/closest_points.h"
 #include "measure/correlation.h"
 #include "measure/error_along.h"
@@ -145,6 +146,13 @@ bool has_moved(const std::vector<FitPoint>& points, Zone face, const Matrix3d& c
   return std::abs(sum / count) > std::max(moved_mm, 3 * std::sqrt(variance));
 }
 
+double median_predicted(const Section& section, const std::vector<FitPoint>& points) {
+  std::vector<double> sigmas;
+  for (const FitPoint& point : points)
+    if (point.weight > 0) sigmas.push_back(section[static_cast<std::size_t>(point.index)].sigma_mm);
+  return sigmas.empty() ? 0 : upper_median(sigmas);
+}
+
 void describe(const Section& section, const Fit& fit, bool upright, Registration& out) {
   const NormalEquations equations = normal_equations(fit.points);
   out.reference_from_section = fit.pose;
@@ -153,6 +161,8 @@ void describe(const Section& section, const Fit& fit, bool upright, Registration
   out.rms_mm = equations.weight > 0 ? std::sqrt(equations.squares / equations.weight) : 0.0;
   out.correlated_points = correlated_points(section, fit.points);
   out.correlation_mm = correlation_length_mm(section, fit.points);
+  out.error = error_along(section, fit.points);
+  out.predicted_mm = median_predicted(section, fit.points);
   out.stretch_error_mm = stretch_error_mm(section, fit.points);
   const double variance = kTukeyVariance * out.rms_mm * out.rms_mm * out.correlated_points;
   out.covariance.setZero();
@@ -167,7 +177,6 @@ void describe(const Section& section, const Fit& fit, bool upright, Registration
 /// The same of a wheel, whose few unworn stretches may be off as a whole.
 void describe_wheel(const Section& section, const Fit& fit, bool upright, Registration& out) {
   describe(section, fit, upright, out);
-  out.error = error_along(section, fit.points);
   if (out.covariance.isZero()) return;
   const Matrix3d noise = gradient_covariance(out.error, section, fit.points);
   const Matrix3d H = normal_equations(fit.points).H;

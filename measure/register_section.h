@@ -65,7 +65,8 @@ struct Registration {
       1;  ///< neighbouring points that share one error; the mean of n points has sigma = rms * sqrt(this / n)
   double correlation_mm = 0;    ///< along the stripes, over which the scatter's correlation falls to 1/e
   double stretch_error_mm = 0;  ///< what the place of a short stretch of surface errs by, beyond scatter
-  ErrorAlong error;             ///< of its points; wheels only
+  ErrorAlong error;             ///< of its points
+  double predicted_mm = 0;      ///< median of the counting points' own predicted errors; 0: not known
   RegistrationView view = RegistrationView::kNone;
   std::string reason = "not registered";  ///< empty: usable
   /// Not usable since only the head is seen, which lies on the reference's by its shape: what does not ask

@@ -29,6 +29,15 @@ VectorXd powers(double t, int degree) {
   return row;
 }
 
+VectorXd derived_powers(double t, int degree, int derivative) {
+  VectorXd row = powers(t, degree);
+  for (int round = 0; round < derivative; ++round) {
+    for (int k = degree; k > 0; --k) row(k) = k * row(k - 1);
+    row(0) = 0;
+  }
+  return row;
+}
+
 std::optional<Weighted> solve(const std::vector<Sample1>& samples, const std::vector<double>& weights,
                               int degree) {
   constexpr double kDetermined = 1e-9;
@@ -110,12 +119,12 @@ std::optional<PolynomialFit> fit_polynomial(const std::vector<Sample1>& samples,
 }
 
 std::vector<double> influences(const std::vector<Sample1>& samples, const PolynomialFit& fit, int degree,
-                               double t) {
+                               double t, int derivative) {
   LIGHTSTRIPE_CHECK(fit.weights.size() == samples.size(), "the fit is one of these samples");
   const auto solved = solve(samples, fit.weights, degree);
   std::vector<double> out(samples.size(), 0.0);
   if (!solved) return out;
-  const VectorXd at = solved->H_inverse * powers(t, degree);
+  const VectorXd at = solved->H_inverse * derived_powers(t, degree, derivative);
   for (std::size_t i = 0; i < samples.size(); ++i)
     out[i] = fit.weights[i] * at.dot(powers(samples[i].t, degree));
   return out;

@@ -32,8 +32,9 @@ struct PolynomialFit {
 std::optional<PolynomialFit> fit_polynomial(const std::vector<Sample1>& samples, int degree,
                                             double min_scale);
 
-/// How much each sample moves the polynomial's value at `t`: d value / d sample, the weights held.
+/// How much each sample moves the polynomial's value at `t`, or its first or second derivative there:
+/// d value / d sample, the weights held.
 std::vector<double> influences(const std::vector<Sample1>& samples, const PolynomialFit& fit, int degree,
-                               double t);
+                               double t, int derivative = 0);
 
 }  // namespace lightstripe

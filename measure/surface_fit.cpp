@@ -36,8 +36,7 @@ std::string hole_in(std::vector<Sample1> samples, const SurfaceProbe& probe) {
   return probe.to_mm - last > widest ? "hole in the section" : "";
 }
 
-/// The best quarter of the points' own predicted errors in the probe: glare over all of it is an error that
-/// its points share.
+/// The best quarter of the points' own predicted errors in the probe, mm; 0: not known.
 double predicted_error(const PlacedSection& placed, const SurfaceProbe& probe) {
   const Vector2d left(-probe.outwards.y(), probe.outwards.x());
   std::vector<double> sigmas;
@@ -50,6 +49,17 @@ double predicted_error(const PlacedSection& placed, const SurfaceProbe& probe) {
   }
   if (sigmas.empty()) return 0;
   return value_at_rank(sigmas, sigmas.size() / 4);
+}
+
+/// The error of points whose own predicted one is not that of the points that the registration rests on: a
+/// face that a sensor looks straight at is better known than the web that it sees at a glance.
+ErrorAlong as_predicted_here(const Registration& registration, double predicted_mm) {
+  constexpr double kBest = 0.75, kWorst = 2;  // what the calibration bends does not shrink with the noise
+  ErrorAlong error = registration.error;
+  if (!(predicted_mm > 0 && registration.predicted_mm > 0)) return error;
+  const double scale = std::clamp(predicted_mm / registration.predicted_mm, kBest, kWorst);
+  error.own_mm *= scale, error.shared_mm *= scale;
+  return error;
 }
 
 }  // namespace
@@ -68,14 +78,16 @@ SurfaceFit fit_surface(const PlacedSection& placed, const SurfaceProbe& probe) {
   SurfaceFit out;
   const Vector2d left(-probe.outwards.y(), probe.outwards.x());
   std::vector<Sample1> differences;
+  std::vector<PlaceOnStripe> places;
   for (std::size_t i = 0; i < placed.points.size(); ++i) {
     const Vector2d& p = placed.points[i];
     const Vector2d from_origin = p - probe.origin;
     const double across = from_origin.dot(left), along = from_origin.dot(probe.outwards);
     if (across < probe.from_mm || across > probe.to_mm || std::abs(along) > probe.reach_mm) continue;
     const auto surface = placed.reference.surface_along(probe.origin, probe.outwards, across);
-    if (surface && std::abs(*surface - along) < kMostWearMm)
-      differences.push_back({across, *surface - along, placed.section[i].weight});
+    if (!surface || std::abs(*surface - along) >= kMostWearMm) continue;
+    differences.push_back({across, *surface - along, placed.section[i].weight});
+    places.push_back({across, placed.section[i].chain});
   }
   out.reason = hole_in(differences, probe);
   const auto here = placed.reference.surface_along(probe.origin, probe.outwards, 0);
@@ -93,8 +105,16 @@ SurfaceFit fit_surface(const PlacedSection& placed, const SurfaceProbe& probe) {
   out.slope = (*after - *before) / (2 * kDerivativeMm) - fit->slope;
   out.rms_mm = fit->rms;
   out.num_points = fit->num_samples;
-  const double stretch = std::max(placed.registration.stretch_error_mm, predicted_error(placed, probe));
-  out.local_sigma_mm = std::hypot(fit->rms * std::sqrt(fit->value_factor), stretch);
+  // Across a slope the errors, which are normal to the surface, and the places along it are longer.
+  const double steep = std::hypot(1, out.slope);
+  for (PlaceOnStripe& place : places) place.along_mm *= steep;
+  const double predicted = predicted_error(placed, probe);
+  const ErrorAlong error = where_points_scatter(as_predicted_here(placed.registration, predicted),
+                                                fit->rms / steep, fit->num_samples);
+  out.local_sigma_mm = steep * sigma_of_sum(error, places, influences(differences, *fit, probe.degree, 0));
+  // Glare over all of the probe is an error that its points share.
+  if (predicted > std::hypot(error.own_mm, error.shared_mm))
+    out.local_sigma_mm = std::max(out.local_sigma_mm, predicted);
   out.place = probe.origin + out.along_mm * probe.outwards;
   out.response = probe.outwards - out.slope * left;
   return out;

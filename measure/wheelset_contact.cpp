@@ -153,6 +153,21 @@ WheelsetWalk walk_wheelset(const std::array<WheelOnRail, kSides>& sides, const C
   return out;
 }
 
+double overlap_centre_mm(const WheelOnRail& side, const WheelsetPlace& place, TrackSide which,
+                         double approach_mm) {
+  constexpr double kStepMm = 0.02;
+  const auto s = static_cast<std::size_t>(which);
+  const Pose pose = pose_of(s, place.shift_mm, place.roll_rad);
+  const Range range = common_range(side, pose);
+  const double touching = gap_at(side, pose, place.contact[s].wheel_y_mm);
+  double sum = 0, weight = 0;
+  for (double y = range.from; y <= range.to; y += kStepMm) {
+    const double depth = std::max(0.0, approach_mm - (gap_at(side, pose, y) - touching));
+    sum += depth * rail_place(side, pose, y), weight += depth;
+  }
+  return weight > 0 ? sum / weight : place.contact[s].rail_y_mm;
+}
+
 std::vector<ContactJump> find_jumps(const WheelsetWalk& walk) {
   std::vector<ContactJump> jumps;
   for (std::size_t i = 0; i < walk.places.size(); ++i)

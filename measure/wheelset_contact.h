@@ -62,6 +62,13 @@ struct WheelsetWalk {
 /// middle's contact is not within the profiles.
 WheelsetWalk walk_wheelset(const std::array<WheelOnRail, kSides>& sides, const ContactOptions& options = {});
 
+/// Where a wheel that is pressed `approach_mm` into its rail overlaps it: the overlap's centre on the rail,
+/// weighted by its depth. A loaded wheel's contact patch lies about it, not about the rigid contact point,
+/// where the curvatures of both change: with an approach of 0.01 mm S1002 on UIC60 meets the places that
+/// CONTACT prints for 10 kN, from which the rigid points differ by up to 1.4 mm.
+double overlap_centre_mm(const WheelOnRail& side, const WheelsetPlace& place, TrackSide which,
+                         double approach_mm);
+
 /// Between two shifts a contact point leaps from one valley of the gap to another.
 struct ContactJump {
   TrackSide side = TrackSide::kLeft;

@@ -137,6 +137,26 @@ TEST_F(Track, LimitAndReportKnowTheConicity) {
   EXPECT_THAT(text_of(*folder_ / "measure.html"), HasSubstr("Equivalent conicity at 3 mm"));
 }
 
+// Both rails' places err by what the rig says; what the faces scatter by adds microns.
+TEST_F(Track, GaugesSigmaIsTheRigs) {
+  std::string rig = text_of(*folder_ / "s/truth/rig.yaml");
+  const std::string unknown = "section_absolute_sigma_mm: 0\n";
+  ASSERT_NE(rig.find(unknown), std::string::npos);
+  rig.replace(rig.find(unknown), unknown.size(), "section_absolute_sigma_mm: 0.05\n");
+  write_text(*folder_ / "rig.yaml", rig);
+  const std::string at = quoted(folder_->path());
+  ASSERT_EQ(
+      run_lightstripe("measure " + at + "/profiles.csv --kind rail --rails two --wheelset S1002 --rig " + at +
+                      "/rig.yaml -o " + at + "/g.csv --quiet")
+          .exit_code,
+      0);
+  CsvReader rows(*folder_ / "g.csv", {"gauge_sigma", "conicity_sigma"});
+  while (rows.next()) {
+    EXPECT_NEAR(rows.number(0), std::sqrt(2.0) * 0.05, 0.01);
+    EXPECT_GT(rows.number(1), 0.001);
+  }
+}
+
 TEST_F(Track, WheelsetNeedsATrack) {
   const std::string at = quoted(folder_->path());
   const CommandResult one =

@@ -69,6 +69,27 @@ TEST(Conicity, ContactLiesWhereTheSlopesAgree) {
   }
 }
 
+// Cone on an even crown: the overlap is symmetric about the contact. A rail that is
+// nearly flat from the contact outwards draws it there.
+TEST(Contact, OverlapLeansToWhereTheGapOpensSlowly) {
+  std::vector<Vector2d> flat_outside = crown();
+  const double edge = -kCrownMm * std::sin(std::atan(kCone)),
+               edge_z = std::sqrt(kCrownMm * kCrownMm - edge * edge) - kCrownMm;
+  for (Vector2d& p : flat_outside)
+    if (p.x() > edge) p.y() = edge_z + kCone * (p.x() - edge) - (p.x() - edge) * (p.x() - edge) / 6000;
+  for (const auto& [points, lean] : {std::pair{crown(), 0.0}, {flat_outside, 1.5}}) {
+    const RollingProfile wheel = exact(cone()), rail = exact(points);
+    const Conicity conicity = of(wheel, rail);
+    const WheelsetPlace& middle = conicity.walk.places[conicity.walk.places.size() / 2];
+    const WheelOnRail side{wheel.surface.table(), rail.surface.table(), 1360 / 2.0 + 70, 1435 / 2.0 + 36};
+    const double centre = overlap_centre_mm(side, middle, TrackSide::kLeft, 0.01);
+    if (lean == 0)
+      EXPECT_NEAR(centre, middle.contact[0].rail_y_mm, 0.02);
+    else
+      EXPECT_GT(centre, middle.contact[0].rail_y_mm + lean);
+  }
+}
+
 TEST(Conicity, ARadiusDifferenceMovesTheWaveNotItsLength) {
   ConicityOptions options;
   options.radius_difference_mm = 0.1;  // equal radii at a shift of -1 mm

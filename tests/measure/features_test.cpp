@@ -178,6 +178,19 @@ TEST(Features, ATenthOfOutliersIsLeftOut) {
   EXPECT_NEAR(value(measure_features(profile, step_file()), 0), 2, 0.01);
 }
 
+// Nine sigma are no noise: a limit three times as wide would let them lift the upper line by 0.005.
+TEST(Features, PointsNineSigmaOffDoNotCount) {
+  constexpr int kRepeats = 20;
+  double mean = 0;
+  for (int k = 0; k < kRepeats; ++k) {
+    Profile profile = section(step_at, 0.01, static_cast<std::uint64_t>(k + 1));
+    for (std::size_t i = 0; i < profile.points.size(); i += 7)
+      if (profile.points[i].u > 0) profile.points[i].v += 0.09;
+    mean += value(measure_features(profile, step_file()), 0) / kRepeats;
+  }
+  EXPECT_NEAR(mean, 2, 0.003);
+}
+
 /// What 200 repeats scatter by over what was predicted, and over the least that is possible.
 struct Spread {
   double over_predicted = 0, sigma = 0;

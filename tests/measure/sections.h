@@ -23,28 +23,6 @@ struct SectionRecipe {
   std::uint64_t seed = 1;
 };
 
-/// Points of a rail's outline that a sensor up and aside sees: normals that look towards it, and nothing
-/// under the head down to 70 below the top (shadow), as in the simulated rig.
-inline Section rail_section(const Outline& rail, const SectionRecipe& recipe) {
-  Random random(recipe.seed);
-  Section section;
-  for (int sensor = 0; sensor < 2; ++sensor) {
-    if (!(sensor == 0 ? recipe.right : recipe.left)) continue;
-    const Eigen::Vector2d towards = Eigen::Vector2d(sensor == 0 ? 1 : -1, 0.7).normalized();
-    for (const OutlineSample& point : sample(rail, recipe.spacing_mm)) {
-      const Eigen::Vector2d &p = point.position, &n = point.normal;
-      const bool head = p.y() > -38, shadow = !head && p.y() > -70;
-      if (n.dot(towards) < 0.2 || shadow || (!head && !recipe.lower_part)) continue;
-      if (!head && p.x() * towards.x() < 0) continue;
-      const Eigen::Vector2d seen = p + recipe.noise_mm * random.gaussian() * n;
-      const Eigen::Vector2d moved =
-          Eigen::Rotation2Dd(recipe.turn_deg * std::numbers::pi / 180) * seen + recipe.shift;
-      section.push_back({moved, 2 * sensor + (head ? 0 : 1), sensor, 0, 1});
-    }
-  }
-  return section;
-}
-
 /// What bends a section of `count` points, across it.
 inline std::vector<double> bend_of(std::size_t count, const SectionRecipe& recipe, Random& random) {
   std::vector<double> out(count, 0.0);
@@ -61,6 +39,30 @@ inline std::vector<double> bend_of(std::size_t count, const SectionRecipe& recip
     for (std::size_t k = 0; k < kernel.size(); ++k)
       out[i] += recipe.bend_mm * kernel[k] * white[i + k] / std::sqrt(squares);
   return out;
+}
+
+/// Points of a rail's outline that a sensor up and aside sees: normals that look towards it, and nothing
+/// under the head down to 70 below the top (shadow), as in the simulated rig.
+inline Section rail_section(const Outline& rail, const SectionRecipe& recipe) {
+  Random random(recipe.seed);
+  Section section;
+  for (int sensor = 0; sensor < 2; ++sensor) {
+    if (!(sensor == 0 ? recipe.right : recipe.left)) continue;
+    const Eigen::Vector2d towards = Eigen::Vector2d(sensor == 0 ? 1 : -1, 0.7).normalized();
+    const auto points = sample(rail, recipe.spacing_mm);
+    const std::vector<double> bend = bend_of(points.size(), recipe, random);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const Eigen::Vector2d &p = points[i].position, &n = points[i].normal;
+      const bool head = p.y() > -38, shadow = !head && p.y() > -70;
+      if (n.dot(towards) < 0.2 || shadow || (!head && !recipe.lower_part)) continue;
+      if (!head && p.x() * towards.x() < 0) continue;
+      const Eigen::Vector2d seen = p + (bend[i] + recipe.noise_mm * random.gaussian()) * n;
+      const Eigen::Vector2d moved =
+          Eigen::Rotation2Dd(recipe.turn_deg * std::numbers::pi / 180) * seen + recipe.shift;
+      section.push_back({moved, 2 * sensor + (head ? 0 : 1), sensor, 0, 1});
+    }
+  }
+  return section;
 }
 
 /// A wheel's outline above `lowest_v`.
