@@ -34,6 +34,9 @@ struct FollowTuning {
   /// Octaves, and the same for a line whose own scale is finer by more than that: a kernel so broad joins
   /// pieces which lie beside each other, and each of them is met again by a seed of its own.
   double much_finer_scale = 0.5, kept_length_of_finer = 0.3;
+  /// Times the scale that the grain asks for: only a line so long tells its grain well enough to be looked
+  /// for from other places where its middle shows nothing at that scale.
+  double worth_other_places = 30;
   /// Of the least length: what is shorter is no line at this scale, and leaves
   /// its place to other scales. The exact length is judged later on the
   /// measured line.

@@ -3,6 +3,7 @@
 #include "extraction/follow/own_scale.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <span>
 
@@ -205,20 +206,25 @@ std::optional<typename LineFinder<T>::Followed> LineFinder<T>::at_own_scale(cons
   const double used = groups_.all[line.group].kernels->sigma;
   const double farthest = std::exp2(search_.tuning.farthest_scale);
   const double width_scale = scale_of_line(w_.pyramid, kernels_, points, used);
-  const double own =
-      std::clamp(broader_in_grain(line, width_scale) * width_scale, used / farthest, used * farthest);
+  const double broader = broader_in_grain(line, width_scale);
+  const double own = std::clamp(broader * width_scale, used / farthest, used * farthest);
   const bool first_of_its_scale = lines.lines.size() == 1;
   const double tolerance = first_of_its_scale ? search_.tuning.first_scale : search_.tuning.refollow_scale;
   if (std::abs(std::log2(own / used)) <= tolerance) return line;
-  const StripePoint middle = points[points.size() / 2];
+  // Where a dark grain hides the line from the broader kernels, another place shows it.
+  const std::array<StripePoint, 3> places{points[points.size() / 2], points[points.size() / 4],
+                                          points[3 * points.size() / 4]};
   const bool much_finer = std::log2(used / own) > search_.tuning.much_finer_scale;
   const double least =
       (much_finer ? search_.tuning.kept_length_of_finer : search_.tuning.kept_length) * length(line);
   take_back(line);
   const std::size_t group = group_for(own, 0.5 * tolerance);
-  auto again = follow(group, nearest_pixel(middle.x), nearest_pixel(middle.y));
-  if (again && length(*again) >= least) return again;
-  if (again) take_back(*again);
+  for (const StripePoint& p : places) {
+    const auto again = follow(group, nearest_pixel(p.x), nearest_pixel(p.y));
+    if (again && length(*again) >= least) return again;
+    if (again) take_back(*again);
+    if (again || broader <= 1 || length(line) < search_.tuning.worth_other_places * own) break;
+  }
   return follow(line.group, x, y);
 }
 
