@@ -84,7 +84,11 @@ class Check {
       : steps_(steps_of(readings)), rotary_(motion == MotionType::kRotary), in_(std::move(readings)) {}
 
   CheckedReadings run() {
-    if (steps_.usual == 0) return {std::move(in_), {}};
+    if (steps_.usual == 0) {
+      out_.readings = std::move(in_);
+      say_stuck();  // also a counter that never moved
+      return std::move(out_);
+    }
     resolution_ = resolution_of(in_);
     for (std::size_t i = 0; i < in_.size(); ++i) take(i);
     say_left_out();
@@ -122,9 +126,29 @@ class Check {
     if (!out_.readings.empty()) {
       const double step = travel + added_ - out_.readings.back().second;
       const double frames = static_cast<double>(frame - out_.readings.back().first);
-      if (is_jump(step, frames, kJump) && !explain(i, step, frames)) return;
+      if (is_jump(step, frames, kJump)) {
+        if (!explain(i, step, frames)) return;
+      } else if (is_reset(i, step, frames)) {
+        name_jump(frame, step);
+      }
     }
     out_.readings.emplace_back(frame, travel + added_);
+  }
+
+  /// Back by several usual steps in between steps forth (or the other way round), as no rig turns.
+  bool is_reset(std::size_t i, double step, double frames) const {
+    constexpr double kSteps = 3;
+    if (i < 2 || i + 1 >= in_.size() || std::abs(step) <= kSteps * steps_.usual * frames) return false;
+    const double before = in_[i - 1].second - in_[i - 2].second, after = in_[i + 1].second - in_[i].second;
+    return !rotary_ && before * step < 0 && after * step < 0;
+  }
+
+  void name_jump(std::int64_t frame, double step) {
+    if (++jumps_ > kMostNamed) return;
+    out_.warnings.push_back(fmt::format(
+        "frame {}: the travel jumps by {:.6g} {} (usual step {:.3g}); if the counter began anew or was "
+        "reset there, correct the table",
+        frame, step, unit(), steps_.usual));
   }
 
   /// False where the reading is left out.
@@ -144,11 +168,8 @@ class Check {
       out_.warnings.push_back(fmt::format(
           "frame {}: the counter has begun anew after {:.6g} mm; this is undone in all frames from there on",
           frame, std::abs(*length)));
-    } else if (++jumps_ <= kMostNamed) {
-      out_.warnings.push_back(fmt::format(
-          "frame {}: the travel jumps by {:.6g} {} (usual step {:.3g}); if the counter began anew or was "
-          "reset there, correct the table",
-          frame, step, unit(), steps_.usual));
+    } else {
+      name_jump(frame, step);
     }
     return true;
   }

@@ -23,9 +23,9 @@ struct CheckedReadings {
 /// - a step that is the usual one but for 2^16 or 2^32 counts, from one end of the counter's range to the
 ///   other, the counts being whole parts of the table's finest digit and only one such length fitting, is a
 ///   wrap and undone in all later readings;
-/// - any other step of more than 20 usual ones, and travel that stands still over three frames or more, is
-///   only named.
-/// Angles may begin anew at a full turn. Fewer than four steps tell nothing.
+/// - any other step of more than 20 usual ones, one of more than 3 against those before and behind it (a
+///   counter that was reset), and travel that stands still over three frames or more, is only named.
+/// Angles may begin anew at a full turn. Fewer than four steps tell nothing but that the travel stands still.
 CheckedReadings check_encoder(TravelReadings readings, MotionType motion);
 
 }  // namespace lightstripe

@@ -41,6 +41,19 @@ V made_unit(const V& vector, const Place& place) {
   return std::abs(length - 1) < 1e-15 ? vector : V(vector / length);
 }
 
+/// Beyond these no lens is, and no number of a point would be finite.
+void check_lens_place(const Camera& camera, const Place& place) {
+  const double widest = std::max(camera.width, camera.height);
+  for (const auto& [key, value] : {std::pair{"fx", camera.fx}, std::pair{"fy", camera.fy}})
+    (place / key)
+        .require(value >= 0.01 * widest && value <= 1e6 * widest,
+                 "is no focal length for pictures of this size", "give the focal length in px");
+  for (const auto& [key, value] : {std::pair{"cx", camera.cx}, std::pair{"cy", camera.cy}})
+    (place / key)
+        .require(std::abs(value) <= 1e3 * widest, "is no principal point for pictures of this size",
+                 "give the pixel where the optical axis meets the sensor");
+}
+
 Camera checked_camera(const CameraFields& fields, const std::array<int, 2>& size, const Place& place) {
   Camera camera;
   camera.width = size[0];
@@ -51,6 +64,7 @@ Camera checked_camera(const CameraFields& fields, const std::array<int, 2>& size
   camera.cy = (place / "cy").given(fields.cy);
   (place / "fx").require(camera.fx > 0, "is not positive", "give the focal length in px");
   (place / "fy").require(camera.fy > 0, "is not positive", "give the focal length in px");
+  check_lens_place(camera, place);
   const std::vector<double>& terms = (place / "distortion").given(fields.distortion);
   constexpr std::array<std::size_t, 5> kCounts = {4, 5, 8, 12, 14};
   (place / "distortion")

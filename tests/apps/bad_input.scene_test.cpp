@@ -25,9 +25,9 @@ struct Case {
   std::string err;
 };
 
-std::vector<Case> read_cases() {
+std::vector<Case> read_cases(const std::string& list) {
   std::vector<Case> cases;
-  for (const auto& line : lines_of(text_of(LIGHTSTRIPE_SOURCE_DIR "/tests/apps/bad_input.txt"))) {
+  for (const auto& line : lines_of(text_of(std::string(LIGHTSTRIPE_SOURCE_DIR "/tests/apps/") + list))) {
     if (line.starts_with("## ")) {
       cases.push_back({line.substr(3), "", "", {}, -1, ""});
     } else if (cases.empty() || line.empty()) {
@@ -108,8 +108,14 @@ class BadInput : public ::testing::Test {
 TemporaryFolder* BadInput::folder_ = nullptr;
 
 TEST_F(BadInput, GetsItsExitCodeAndItsSentence) {
-  const auto cases = read_cases();
-  EXPECT_GE(cases.size(), 100U);
+  const auto cases = read_cases("bad_input.txt");
+  EXPECT_GE(cases.size(), 118U);
+  for (const Case& test : cases) check(test);
+}
+
+TEST_F(BadInput, OfFurtherKindsGetsItsExitCodeAndItsSentence) {
+  const auto cases = read_cases("bad_input_further.txt");
+  EXPECT_GE(cases.size(), 60U);
   for (const Case& test : cases) check(test);
 }
 

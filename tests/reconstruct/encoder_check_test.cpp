@@ -82,12 +82,25 @@ TEST(EncoderCheck, AJumpThatIsNoWrapIsNamedAndStays) {
 TEST(EncoderCheck, WhatARigDoesIsLeftAlone) {
   EXPECT_THAT(check({0, 2, 4, 6, 8, 10, 12}).warnings, IsEmpty());
   EXPECT_THAT(check({0, 2, 4, 4, 6, 10, 19, 30, 31}).warnings, IsEmpty()) << "a walk";
-  EXPECT_THAT(check({0, 0, 0, 0, 0, 0}).warnings, IsEmpty()) << "no step tells the usual one";
+  EXPECT_THAT(check({0, 2, 4, 6, 8, 10, 8, 6, 4, 2}).warnings, IsEmpty()) << "there and back";
+  EXPECT_THAT(check({0, 2, 4, 6, 2, 6, 8, 10}).warnings, IsEmpty()) << "a step back";
   EXPECT_THAT(check({356, 358, 0, 2, 4, 6, 8}, MotionType::kRotary).warnings, IsEmpty()) << "a full turn";
   const std::vector<double> sparse = {0, 2, 4, 6, 8, 10};
   TravelReadings with_gap = readings(sparse);
   with_gap.emplace_back(200, 400);
   EXPECT_THAT(check_encoder(with_gap, MotionType::kLinear).warnings, IsEmpty()) << "195 frames later";
+}
+
+TEST(EncoderCheck, ACounterThatNeverMovedIsNamed) {
+  EXPECT_THAT(check({0, 0, 0, 0, 0, 0}).warnings, ElementsAre(HasSubstr("frames 1 to 5")))
+      << "not plugged in";
+}
+
+TEST(EncoderCheck, ACounterThatWasResetIsNamed) {
+  const std::vector<double> travel = {0, 2, 4, 6, 8, 10, 0, 2, 4, 6, 8, 10};
+  const CheckedReadings checked = check(travel);
+  EXPECT_THAT(checked.warnings, ElementsAre(HasSubstr("frame 6: the travel jumps by -10 mm")));
+  EXPECT_EQ(travel_of(checked), travel);
 }
 
 TEST(EncoderCheck, SeveralErrorsInARowAreLeftOut) {
