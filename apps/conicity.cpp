@@ -6,6 +6,7 @@
 
 #include "apps/command.h"
 #include "apps/options.h"
+#include "apps/table_style.h"
 #include "io/atomic_file.h"
 #include "pipeline/conicity_job.h"
 #include "report/conicity_report.h"
@@ -17,6 +18,7 @@ struct ConicityArguments {
   CommonOptions common;
   ConicityJob job;
   Overrides options;
+  TableStyle style = TableStyle::kPlain;
 };
 
 void summarise(const ConicityArguments& arguments, const Conicity& conicity) {
@@ -45,6 +47,8 @@ int run(ConicityArguments arguments) {
   apply_overrides(arguments.job.options, arguments.options);
   const Conicity conicity = run_conicity(arguments.job);
   if (!conicity.usable()) return not_usable(conicity.reason);
+  apply_table_style(arguments.job.output, arguments.style);
+  if (!arguments.job.contacts.empty()) apply_table_style(arguments.job.contacts, arguments.style);
   if (!arguments.job.report.empty())
     write_file(arguments.job.report, conicity_report_html(arguments.job, conicity));
   summarise(arguments, conicity);
@@ -78,6 +82,7 @@ void add_conicity_command(CLI::App& app, Command& run_command) {
   command->add_option("--correlation", job.correlation_mm,
                       "length along a measured profile over which points share their error, mm [0]");
   command->add_option("--contacts", job.contacts, "table of the contact points over the shift (csv)");
+  add_table_style_option(*command, arguments->style);
   command->add_option("--report", job.report, "report to look at (HTML)");
   add_common_options(*command, arguments->common, "table of tan gamma_e (default: conicity.csv)");
   add_field_options<ConicityOptions>(*command, "", arguments->options);

@@ -9,6 +9,7 @@
 #include "apps/command.h"
 #include "apps/options.h"
 #include "apps/progress.h"
+#include "apps/table_style.h"
 #include "core/error.h"
 #include "report/explain_extraction.h"
 #include "report/extraction_pictures.h"
@@ -24,6 +25,7 @@ struct ExtractArguments {
   std::string channel = "auto";
   std::string overlay_folder, background;
   bool explain = false;
+  TableStyle style = TableStyle::kPlain;
   Overrides overrides;
 };
 
@@ -64,6 +66,7 @@ int run_extract(const ExtractArguments& arguments) {
   };
   if (arguments.explain) job.on_row = [&](std::size_t i) { say(arguments.common, explanations[i]); };
   const ExtractResult result = extract(job, progress_line(arguments.common.quiet));
+  apply_table_style(job.table, arguments.style);
   for (const std::string& warning : result.warnings) warn(warning);
   say(arguments.common, fmt::format("{} images, {} lines, {} points -> {}", result.images, result.lines,
                                     result.points, job.table.string()));
@@ -85,6 +88,7 @@ void add_extract_command(CLI::App& app, Command& run) {
   auto arguments = std::make_shared<ExtractArguments>();
   command->add_option("images", arguments->images, "image files")->required();
   add_common_options(*command, arguments->common, "table of points (default: stripes.csv)");
+  add_table_style_option(*command, arguments->style);
   command->add_option("--channel", arguments->channel,
                       "of colour images: auto, gray, or red, green, blue, alone or with -excess, -laser, "
                       "-clipped, -textured");

@@ -9,6 +9,7 @@
 #include "apps/command.h"
 #include "apps/options.h"
 #include "apps/progress.h"
+#include "apps/table_style.h"
 #include "core/error.h"
 #include "io/atomic_file.h"
 #include "io/rig_file.h"
@@ -29,6 +30,7 @@ struct VerifyArguments {
   std::string session, rig;
   Overrides extraction, limits;
   ArtefactArguments artefact;
+  TableStyle style = TableStyle::kPlain;
 };
 
 std::string describe(const Verification& verification) {
@@ -83,6 +85,9 @@ std::string describe(const ArtefactCheck& check) {
 
 int run_artefact(const VerifyArguments& arguments) {
   const CommonOptions& common = arguments.common;
+  if (arguments.style == TableStyle::kExcel)
+    throw Error("--csv-style", "is not for a table that grows, which the next check reads again",
+                "leave it out; the page of --report shows all checks");
   const ArtefactJob job = artefact_job_of(arguments);
   const ArtefactResult result = verify_artefact(job, progress_line(common.quiet));
   if (!result.check) return not_usable(result.not_usable);
@@ -107,6 +112,7 @@ int run_verify(const VerifyArguments& arguments) {
   for (const auto& image : result.seen.rejected)
     warn(fmt::format("{} {}: {}", image.sensor, image.image, image.reason));
   if (!result.measured) return not_usable(result.not_usable);
+  apply_table_style(job.table, arguments.style);
   say(common, describe(result.verification));
   say(common, (result.usable() ? "passed; views -> " : "failed; views -> ") + job.table.string());
   return result.usable() ? kExitDone : not_usable(result.not_usable);
@@ -145,6 +151,7 @@ void add_verify_command(CLI::App& app, Command& run) {
   add_common_options(
       *command, arguments->common,
       "table of the views (default: verify.csv; with --artefact artefact_checks.csv, which grows)");
+  add_table_style_option(*command, arguments->style);
   add_field_options<VerifyLimits>(*command, "", arguments->limits);
   add_artefact_options(*command, arguments->artefact);
   add_field_options<ExtractionOptions>(*command, "extraction.", arguments->extraction);

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include <algorithm>
 
 #include "core/error.h"
@@ -25,7 +27,10 @@ LineChart chart_of(const std::vector<ArtefactCheck>& history) {
 std::vector<std::string> row_of(const std::vector<ArtefactCheck>& history, std::size_t i) {
   const ArtefactCheck& c = history[i];
   const auto drift =
-      c.drift_mm ? fmt::format("{:+.4f} (sigma {:.4f})", *c.drift_mm, c.drift_sigma_mm.value_or(0)) : "-";
+      c.drift_mm ? fmt::format("{} (sigma {:.4f})",
+                               std::abs(*c.drift_mm) < 5e-5 ? "0.0000" : fmt::format("{:+.4f}", *c.drift_mm),
+                               c.drift_sigma_mm.value_or(0))
+                 : "-";
   return {fmt::format("{}", i + 1),
           c.time,
           c.rig,

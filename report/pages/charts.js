@@ -14,7 +14,7 @@ function showHead() {
 function setsOf(line, color) {
   const each = f => line.x.map((x, i) => ({ x, y: line.y[i] === null ? NaN : f(line.y[i], line.half[i] || 0), half: line.half[i] }));
   const sets = [{ label: line.name, data: each(v => v), borderColor: color, backgroundColor: color, borderWidth: line.dots ? 0 : 1.5,
-    showLine: !line.dots, pointRadius: line.dots ? 1.6 : line.x.length < 60 ? 2 : 0, measured: true, order: 1 }];
+    showLine: !line.dots, pointRadius: line.dots ? 1.6 : line.x.length < 60 ? 2 : 0, measured: true, order: line.dots ? 1 : 0 }];
   if (line.half.length) {
     sets.push({ label: '', data: each((v, h) => v + h), showLine: true, borderWidth: 0, pointRadius: 0, fill: '+1', backgroundColor: color + '2e', order: 2 });
     sets.push({ label: '', data: each((v, h) => v - h), showLine: true, borderWidth: 0, pointRadius: 0, order: 2 });

@@ -157,6 +157,17 @@ TEST_F(Track, GaugesSigmaIsTheRigs) {
   }
 }
 
+TEST_F(Track, TablesForExcelHaveSemicolonsAndDecimalCommas) {
+  const std::string at = quoted(folder_->path());
+  ASSERT_EQ(run_lightstripe("conicity --wheel S1002 --rail 60E1 --csv-style excel -o " + at +
+                            "/e.csv --contacts " + at + "/ec.csv --quiet")
+                .exit_code,
+            0);
+  EXPECT_THAT(text_of(*folder_ / "e.csv"), HasSubstr("y_mm;delta_r_mm;tan_gamma_e"));
+  EXPECT_THAT(text_of(*folder_ / "e.csv"), HasSubstr("\n3;0,"));
+  EXPECT_THAT(text_of(*folder_ / "ec.csv"), HasSubstr("shift_mm;roll_mrad"));
+}
+
 TEST_F(Track, WheelsetNeedsATrack) {
   const std::string at = quoted(folder_->path());
   const CommandResult one =

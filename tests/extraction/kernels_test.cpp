@@ -191,5 +191,27 @@ TEST(Kernels, PhaseRoundsToTheNearest32nd) {
   EXPECT_DOUBLE_EQ(to_phase(-0.25).value(), -0.25);
 }
 
+TEST(HalveRows, AreRoundedMeansForAllTailLengths) {
+  for (std::size_t count = 0; count < 150; ++count) {
+    std::vector<std::uint8_t> a(2 * count + 1), b(2 * count + 1), out(count + 1, 77);
+    for (std::size_t i = 0; i < a.size(); ++i) {
+      a[i] = static_cast<std::uint8_t>((i * 37 + count) % 256);
+      b[i] = static_cast<std::uint8_t>(255 - (i * 91) % 256);
+    }
+    halve_rows(a.data(), b.data(), count, out.data());
+    for (std::size_t i = 0; i < count; ++i)
+      ASSERT_EQ(out[i], (a[2 * i] + a[2 * i + 1] + b[2 * i] + b[2 * i + 1] + 2) / 4) << count << " " << i;
+    EXPECT_EQ(out[count], 77) << "beyond the end";
+  }
+}
+
+TEST(HalveRows, Hold16Bits) {
+  const std::vector<std::uint16_t> a{65535, 65535, 1, 2}, b{65535, 65534, 3, 4};
+  std::vector<std::uint16_t> out(2);
+  halve_rows(a.data(), b.data(), 2, out.data());
+  EXPECT_EQ(out[0], 65535);
+  EXPECT_EQ(out[1], 3);
+}
+
 }  // namespace
 }  // namespace lightstripe
