@@ -30,15 +30,50 @@ double stripe_sigma_px(const StripePoint& point, const CalibrationOptions& optio
   return std::hypot(point.sigma_px, options.stripe_sigma_floor_px);
 }
 
+double mean_variance(const std::vector<StripePoint>& points, const CalibrationOptions& options) {
+  double sum = 0;
+  for (const auto& point : points) sum += std::pow(stripe_sigma_px(point, options), 2);
+  return sum / static_cast<double>(points.size());
+}
+
+/// The mean variance of each sensor's stripe points. One laser draws them all on one board.
+std::vector<double> common_variances(const SessionViews& session, const CalibrationOptions& options) {
+  std::vector<double> sums(session.sensor_names.size(), 0), counts = sums;
+  for (const auto& view : session.views)
+    for (const auto& stripe : view.stripes) {
+      if (stripe.empty()) continue;
+      const auto n = static_cast<double>(stripe.size());
+      sums[static_cast<std::size_t>(view.sensor)] += n * mean_variance(stripe, options);
+      counts[static_cast<std::size_t>(view.sensor)] += n;
+    }
+  for (std::size_t s = 0; s < sums.size(); ++s) sums[s] /= std::max(1.0, counts[s]);
+  return sums;
+}
+
+/// By what the points' sigmas are multiplied: a stripe of few points tells its own scatter badly (the grain
+/// of the light), and one that seems exact by chance must not decide. Its variance is drawn to the sensor's,
+/// as if that had been seen in kCommonPoints points as well (empirical Bayes, Smyth 2004).
+double moderation(const std::vector<StripePoint>& stripe, double common, const CalibrationOptions& options) {
+  constexpr double kCommonPoints = 15;
+  if (stripe.empty()) return 1;
+  const auto n = static_cast<double>(stripe.size());
+  const double own = mean_variance(stripe, options);
+  return std::sqrt((n * own + kCommonPoints * common) / ((n + kCommonPoints) * own));
+}
+
 std::vector<Residual> list_residuals(const SessionViews& session, const CalibrationOptions& options) {
   std::vector<Residual> list;
+  const std::vector<double> common = common_variances(session, options);
   for (std::size_t v = 0; v < session.views.size(); ++v) {
     const auto& view = session.views[v];
     for (std::size_t i = 0; i < view.corners.size(); ++i)
       if (is_seen(view.corners[i])) list.push_back({v, -1, i, options.corner_sigma_px});
-    for (std::size_t p = 0; p < view.stripes.size(); ++p)
+    for (std::size_t p = 0; p < view.stripes.size(); ++p) {
+      const double factor =
+          moderation(view.stripes[p], common[static_cast<std::size_t>(view.sensor)], options);
       for (std::size_t i = 0; i < view.stripes[p].size(); ++i)
-        list.push_back({v, static_cast<int>(p), i, stripe_sigma_px(view.stripes[p][i], options)});
+        list.push_back({v, static_cast<int>(p), i, factor * stripe_sigma_px(view.stripes[p][i], options)});
+    }
   }
   return list;
 }
