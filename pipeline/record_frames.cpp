@@ -45,7 +45,8 @@ class GrowingTable {
 /// Takes a folder away again that nothing was recorded into.
 class NewFolder {
  public:
-  explicit NewFolder(const fs::path& place) : place_(place), was_there_(fs::exists(place)) {}
+  explicit NewFolder(const fs::path& place)
+      : place_(place), was_there_(fs::exists(fs::symlink_status(place))) {}
   ~NewFolder() {
     std::error_code ignored;
     if (!was_there_ && fs::is_directory(place_, ignored)) fs::remove(place_, ignored);  // an empty one only

@@ -126,10 +126,11 @@ void make_folders(const ImagePlan& plan, const fs::path& output_folder) {
   for (const fs::path& folder : folders) refuse_foreign_pictures(output_folder, folder, own);
   const std::set<std::string> earlier = own.files();
   std::error_code failure;
+  const bool was_there = fs::exists(fs::symlink_status(output_folder, failure));
   try {
     own.claim(planned);
   } catch (const Error&) {
-    fs::remove(output_folder, failure);  // only where it is empty: a full disk leaves nothing
+    if (!was_there) fs::remove(output_folder, failure);  // an empty one: a full disk leaves nothing
     throw;
   }
   for (const fs::path& folder : folders) {

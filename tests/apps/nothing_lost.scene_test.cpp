@@ -311,6 +311,20 @@ TEST_F(NothingLost, AFullDiskAtTheVeryStartLeavesNothing) {
   }
 }
 
+TEST_F(NothingLost, AFileOrLinkInAFoldersPlaceStays) {
+  write_text(at("a_file"), "his");
+  fs::create_symlink("a_file", at("a_link"));
+  fs::create_directories(at("empty"));
+  for (const std::string place : {"a_file", "a_link"})
+    for (const std::string command : {"simulate truth/scene.yaml -o ", "record 'scan/solo/*.png' -o "}) {
+      EXPECT_EQ(in(command + place).exit_code, 1) << command << place;
+      EXPECT_EQ(text_of(at(place)), "his") << command << place;
+      EXPECT_TRUE(fs::is_symlink(at("a_link"))) << command << place;
+    }
+  EXPECT_EQ(shell("ulimit -f 0; exec $LS simulate truth/scene.yaml -o empty >&- 2>&-").exit_code, 1);
+  EXPECT_TRUE(fs::exists(at("empty"))) << "his own folder";
+}
+
 TEST_F(NothingLost, MistypedCommandsAndValuesGetOurWords) {
   const std::map<std::string, std::string> sentences{
       {"calibarte x.yaml", "calibarte: is no command, did you mean calibrate?"},
