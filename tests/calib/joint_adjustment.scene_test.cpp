@@ -48,7 +48,8 @@ TEST(JointAdjustment, AStripeThatSeemsExactByChanceDoesNotDecide) {
         std::asin(found.cross(truth.sensors[0].laser_planes[0].normal).norm()) / testing::kDegree, 2);
     predicted += std::pow(parameter_sigmas(start.session, adjusted).at("gauge.laser_planes.0.normal_deg"), 2);
   }
-  const double ratio = std::sqrt(turns / predicted);  // of 120 trials: 4 % uncertain; 1.2 with each stripe by its own sigma
+  const double ratio =
+      std::sqrt(turns / predicted);  // of 120 trials: 4 % uncertain; 1.2 with each stripe by its own sigma
   EXPECT_LT(ratio, 1.1);
   EXPECT_GT(ratio, 0.8);
   std::printf("actual over predicted turn of the laser plane: %.2f\n", ratio);
