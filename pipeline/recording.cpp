@@ -291,7 +291,7 @@ std::string Recording::picture_name(std::int64_t frame, int sensor) const {
 }
 
 std::string Recording::picture_identity(std::int64_t frame, int sensor) const {
-  const std::string name = picture_name(frame, sensor);
+  std::string name = picture_name(frame, sensor);
   if (name.empty()) return name;
   const auto s = static_cast<std::size_t>(sensor);
   const std::filesystem::path file = sources_[s]->file(map_.index_of(s, frame));
