@@ -14,6 +14,7 @@
 #include "measure/correlation.h"
 #include "measure/error_along.h"
 #include "measure/robust_line.h"
+#include "measure/smoothing_spline.h"
 
 namespace lightstripe {
 namespace {
@@ -153,6 +154,14 @@ double median_predicted(const Section& section, const std::vector<FitPoint>& poi
   return sigmas.empty() ? 0 : upper_median(sigmas);
 }
 
+/// Of neighbouring points about whatever shape they lie on.
+double scatter_mm(const std::vector<FitPoint>& points) {
+  constexpr std::size_t kFewest = 10;
+  std::vector<double> residuals;
+  for (const FitPoint& point : points) residuals.push_back(point.residual);
+  return residuals.size() < kFewest ? 0 : difference_noise(residuals);
+}
+
 void describe(const Section& section, const Fit& fit, bool upright, Registration& out) {
   const NormalEquations equations = normal_equations(fit.points);
   out.reference_from_section = fit.pose;
@@ -266,6 +275,7 @@ Registration register_section(const Section& section, const ReferenceShape& refe
     describe(section, fit, true, out);
     out.covariance.setZero();                             // known beforehand
     out.stretch_error_mm = 0, out.correlated_points = 1;  // what is off is the object, not the measurement
+    out.error = {scatter_mm(fit.points), 0, 1};
     out.view = RegistrationView::kBothSides;
     out.reason.clear();
     return out;
