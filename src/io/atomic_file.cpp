@@ -11,8 +11,10 @@
 #include <array>
 #include <atomic>
 #include <cerrno>
+#include <chrono>
 #include <string>
 #include <system_error>
+#include <thread>
 
 #include "core/error.h"
 
@@ -83,6 +85,19 @@ fs::path create_beside(const fs::path& path) {
   }
 }
 
+/// A pipe opened for writing without waiting for its reader.
+int open_pipe(const fs::path& path) {
+  constexpr int kTries = 20;
+  constexpr auto kPause = std::chrono::milliseconds(100);
+  for (int i = 0; i < kTries; ++i) {
+    const int descriptor = ::open(path.c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC);
+    if (descriptor >= 0) return descriptor;
+    if (errno != ENXIO) cannot_write(path, errno);
+    std::this_thread::sleep_for(kPause);
+  }
+  throw Error(path.string(), "is a pipe that nobody reads", "start its reader first, or name a file");
+}
+
 }  // namespace
 
 TemporaryName::TemporaryName(const fs::path& path) {
@@ -113,6 +128,7 @@ AtomicFile::AtomicFile(const fs::path& path) : path_(followed(path)) {
   if (path_.filename().empty() || fs::is_directory(status))
     throw Error(path.string(), "is a folder", "name a file");
   if (fs::exists(status) && !fs::is_regular_file(status)) {
+    if (fs::is_fifo(status)) pipe_ = open_pipe(path_);
     temporary_ = path_;  // a device or pipe (/dev/stdout): nothing to rename
     committed_ = true;
     return;
@@ -125,6 +141,7 @@ AtomicFile::AtomicFile(const fs::path& path) : path_(followed(path)) {
 AtomicFile::~AtomicFile() {
   std::error_code ignored;
   if (!committed_) fs::remove(temporary_, ignored);
+  if (pipe_ >= 0) ::close(pipe_);
 }
 
 void AtomicFile::commit() {

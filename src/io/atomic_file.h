@@ -27,7 +27,8 @@ class TemporaryName {
 /// (/dev/stdout) is written directly.
 class AtomicFile {
  public:
-  explicit AtomicFile(const std::filesystem::path& path);  ///< makes missing folders
+  /// Makes missing folders. A pipe that nobody reads within two seconds is an Error: it would wait for ever.
+  explicit AtomicFile(const std::filesystem::path& path);
   ~AtomicFile();
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
@@ -41,6 +42,7 @@ class AtomicFile {
  private:
   std::filesystem::path path_, temporary_;
   bool committed_ = false;
+  int pipe_ = -1;  ///< keeps a pipe open until all is written: its reader takes a close for the end
   std::optional<TemporaryName> name_;
 };
 

@@ -4,8 +4,12 @@
 
 #include <gmock/gmock.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 
 #include <csignal>
+#include <fstream>
+#include <iterator>
+#include <thread>
 
 #include "tests/io/temp_folder.h"
 
@@ -99,6 +103,26 @@ TEST(WriteFile, AnInterruptedWriteLeavesTheOldFileAndNothingElse) {
   EXPECT_THAT(message, HasSubstr("a.txt: cannot be written"));
   EXPECT_EQ(content_of(folder / "a.txt"), "old");
   EXPECT_EQ(number_of_entries(folder.path()), 1U);
+}
+
+TEST(WriteFile, APipeIsWrittenToItsReaderAndNeverWaitedFor) {
+  const TempFolder folder;
+  const fs::path pipe = folder / "pipe";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  try {
+    write_file(pipe, "text");
+    FAIL() << "nobody reads it";
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("is a pipe that nobody reads"));
+  }
+  std::string got;
+  std::thread reader([&] {
+    std::ifstream in(pipe);
+    got.assign(std::istreambuf_iterator<char>(in), {});
+  });
+  write_file(pipe, "text");
+  reader.join();
+  EXPECT_EQ(got, "text");
 }
 
 TEST(ReadFile, GivesBackWhatWasWritten) {
