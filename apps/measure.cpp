@@ -162,6 +162,28 @@ int run_features(const MeasureArguments& arguments) {
              : not_usable("no section shows all that is measured; the column `missing` says why");
 }
 
+/// What the sections are held against: outlines, an earlier measurement, a track's second rail and a
+/// wheelset.
+void add_reference_options(CLI::App& command, MeasureArguments& arguments) {
+  command.add_option(
+      "--nominal", arguments.job.reference.nominal,
+      "the new rail or wheel: a name, an outline file, a recorded profile (baseline), or auto [60E1, S1002]");
+  command.add_option(
+      "--baseline", arguments.job.reference.baseline,
+      "an earlier measurement (profiles.csv, .ban, .whl ...) as reference; --nominal guides it");
+  add_choice<bool>(command, "--rails", arguments.job.reference.two_rails, {{"one", false}, {"two", true}},
+                   "one or two: sensors over both rails of a track; measures the gauge between them [one]");
+  command.add_option("--nominal-right", arguments.job.reference.nominal_right,
+                     "with --rails two: the new rail at -y [as --nominal]");
+  command.add_option("--wheelset", arguments.job.reference.wheelset,
+                     "with --rails two: wheels (e.g. S1002, or as `conicity --wheel`) whose equivalent "
+                     "conicity on each section is wanted");
+  command.add_option("--wheelset-right", arguments.job.reference.wheelset_right,
+                     "its right wheel, if it is another");
+  command.add_option("--conicity", arguments.job.conicity_table,
+                     "with --wheelset: table of every section's conicity over the amplitude (csv)");
+}
+
 }  // namespace
 
 void add_measure_command(CLI::App& app, Command& run) {
@@ -177,23 +199,7 @@ void add_measure_command(CLI::App& app, Command& run) {
       ->required();
   command->add_option("--features", arguments->features,
                       "with --kind features: file of features and what to measure between them (YAML)");
-  command->add_option(
-      "--nominal", arguments->job.reference.nominal,
-      "the new rail or wheel: a name, an outline file, a recorded profile (baseline), or auto [60E1, S1002]");
-  command->add_option(
-      "--baseline", arguments->job.reference.baseline,
-      "an earlier measurement (profiles.csv, .ban, .whl ...) as reference; --nominal guides it");
-  add_choice<bool>(*command, "--rails", arguments->job.reference.two_rails, {{"one", false}, {"two", true}},
-                   "one or two: sensors over both rails of a track; measures the gauge between them [one]");
-  command->add_option("--nominal-right", arguments->job.reference.nominal_right,
-                      "with --rails two: the new rail at -y [as --nominal]");
-  command->add_option("--wheelset", arguments->job.reference.wheelset,
-                      "with --rails two: wheels (e.g. S1002, or as `conicity --wheel`) whose equivalent "
-                      "conicity on each section is wanted");
-  command->add_option("--wheelset-right", arguments->job.reference.wheelset_right,
-                      "its right wheel, if it is another");
-  command->add_option("--conicity", arguments->job.conicity_table,
-                      "with --wheelset: table of every section's conicity over the amplitude (csv)");
+  add_reference_options(*command, *arguments);
   command
       ->add_option("--require", arguments->job.options.required,
                    "what you need of each section, e.g. vertical_wear,side_wear: a row is ok where these are "
