@@ -84,12 +84,11 @@ void take_rig(const SessionViews& session, const JointAdjustment& adjustment,
     result.rig.tool_from_rig = tool->tool_from_first * result.rig.sensors.front().rig_from_camera.inverse();
 }
 
-/// With the tool's poses, if they were given, among the measurements.
-JointAdjustment with_tool(const CalibrationObservations& observations, const SessionViews& session,
+/// With the tool's poses among the measurements.
+JointAdjustment with_tool(const std::vector<ToolPose>& poses, const SessionViews& session,
                           const JointAdjustment& adjustment, const CalibrationOptions& options,
                           CalibrationResult& result) {
-  if (!observations.tool_poses) return adjustment;
-  const ToolPoses start = start_tool(*observations.tool_poses, session, adjustment.state);
+  const ToolPoses start = start_tool(poses, session, adjustment.state);
   ToolAdjustment with = adjust_with_tool(session, adjustment, start, options);
   append(result.rig.quality.warnings, std::move(with.left_out));
   return std::move(with.adjustment);
@@ -128,18 +127,20 @@ void calibrate(const CalibrationObservations& observations, const CalibrationOpt
   result.rig.quality.warnings = start.warnings;
 
   result.summary.lenses = lens_choices(start, options);
-  const JointAdjustment of_pictures =
+  JointAdjustment adjustment =
       adjust_jointly(session, start.state, models_of(result.summary.lenses), options);
-  summarise(session, of_pictures, result);
-  const auto& quality_of_sensors = result.rig.quality.sensors;
-  refuse_wrong_camera(session, of_pictures, quality_of_sensors, options);
-  refuse_bad_adjustment(session, of_pictures, quality_of_sensors, board_spreads(session, of_pictures));
-  refuse_disagreement(session, of_pictures);
-  refuse_wrong_unit(session, of_pictures, options);
-
-  const JointAdjustment adjustment = with_tool(observations, session, of_pictures, options, result);
   summarise(session, adjustment, result);
-  const std::vector<BoardSpread> spreads = board_spreads(session, adjustment);
+  std::vector<BoardSpread> spreads = board_spreads(session, adjustment);
+  refuse_wrong_camera(session, adjustment, result.rig.quality.sensors, options);
+  refuse_bad_adjustment(session, adjustment, result.rig.quality.sensors, spreads);
+  refuse_disagreement(session, adjustment);
+  refuse_wrong_unit(session, adjustment, options);
+
+  if (observations.tool_poses) {
+    adjustment = with_tool(*observations.tool_poses, session, adjustment, options, result);
+    summarise(session, adjustment, result);
+    spreads = board_spreads(session, adjustment);
+  }
   take_rig(session, adjustment, spreads, observations.up, options, result);
   assess(session, adjustment, spreads, observations.up, options, result);
   refuse_parallel_lasers(session, spreads);
