@@ -7,6 +7,7 @@
 #include "apps/command.h"
 #include "apps/options.h"
 #include "apps/table_style.h"
+#include "core/counted.h"
 #include "io/atomic_file.h"
 #include "pipeline/conicity_job.h"
 #include "report/conicity_report.h"
@@ -39,7 +40,8 @@ void summarise(const ConicityArguments& arguments, const Conicity& conicity) {
         fmt::format("the table ends at {:.1f} mm: {}",
                     conicity.rows.empty() ? 0.0 : conicity.rows.back().y_mm, conicity.note));
   if (!conicity.verdict.empty()) say(arguments.common, "verdict: " + conicity.verdict);
-  say(arguments.common, fmt::format("{} amplitudes -> {}", conicity.rows.size(), arguments.job.output));
+  say(arguments.common,
+      fmt::format("{} -> {}", counted(conicity.rows.size(), "amplitude"), arguments.job.output));
 }
 
 int run(ConicityArguments arguments) {

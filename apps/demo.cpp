@@ -9,6 +9,7 @@
 #include "apps/interrupt.h"
 #include "apps/options.h"
 #include "apps/simulate.h"
+#include "core/counted.h"
 #include "extraction/draw/overlay.h"
 #include "extraction/extract_stripes.h"
 #include "io/atomic_file.h"
@@ -173,11 +174,11 @@ int run_demo(const std::string& scene_file, bool wheel, const CommonOptions& com
   const RigError rig_error = compare_rigs(rig, read_rig(simulated.truth / "rig.yaml"));
   const CloudError cloud_error = compare_cloud(profiles, rig, simulated.truth);
   say(common, accuracy_table(rig_error, cloud_error, wear, scene.turns()));
-  say(common,
-      fmt::format(
-          "\n{} points from {} frames of {} sensors, {:.0f} frames/s with {} threads (PNG decoding included)",
-          scanned.summary.points, scanned.summary.frames, rig.sensors.size(),
-          static_cast<double>(scanned.summary.frames) / scanned.seconds, thread_count(common.threads)));
+  say(common, fmt::format("\n{} from {} of {}, {:.0f} frames/s with {} (PNG decoding included)",
+                          counted(scanned.summary.points, "point"), counted(scanned.summary.frames, "frame"),
+                          counted(rig.sensors.size(), "sensor"),
+                          static_cast<double>(scanned.summary.frames) / scanned.seconds,
+                          counted(thread_count(common.threads), "thread")));
   own.release_missing();
   say(common, list_of_files(folder, !wear.empty()));
   return kExitDone;

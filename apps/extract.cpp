@@ -10,6 +10,7 @@
 #include "apps/options.h"
 #include "apps/progress.h"
 #include "apps/table_style.h"
+#include "core/counted.h"
 #include "core/error.h"
 #include "report/explain_extraction.h"
 #include "report/extraction_pictures.h"
@@ -68,8 +69,9 @@ int run_extract(const ExtractArguments& arguments) {
   const ExtractResult result = extract(job, progress_line(arguments.common.quiet));
   apply_table_style(job.table, arguments.style);
   for (const std::string& warning : result.warnings) warn(warning);
-  say(arguments.common, fmt::format("{} images, {} lines, {} points -> {}", result.images, result.lines,
-                                    result.points, job.table.string()));
+  say(arguments.common,
+      fmt::format("{}, {}, {} -> {}", counted(result.images, "image"), counted(result.lines, "line"),
+                  counted(result.points, "point"), job.table.string()));
   if (!lost_overlay.empty()) {
     say_error(lost_overlay);  // the table is written
     return kExitInputWrong;

@@ -13,6 +13,7 @@
 #include "apps/live_options.h"
 #include "apps/options.h"
 #include "apps/status_line.h"
+#include "core/counted.h"
 #include "core/error.h"
 #include "io/rig_file.h"
 
@@ -40,10 +41,10 @@ int sensor_of(const Rig& rig, const LiveArguments& arguments) {
 }
 
 std::string status_of(const LiveSummary& now) {
-  return fmt::format(
-      "{} frames, {:.1f}/s, {} lost, {} incomplete, {} late, {} points, sigma {:.4f} mm, latency {:.1f} ms",
-      now.frames, static_cast<double>(now.frames) / std::max(now.seconds, 1e-3), now.lost, now.incomplete,
-      now.late, now.points, now.sigma_mm, now.latency.quantile(0.5));
+  return fmt::format("{}, {:.1f}/s, {} lost, {} incomplete, {} late, {}, sigma {:.4f} mm, latency {:.1f} ms",
+                     counted(now.frames, "frame"),
+                     static_cast<double>(now.frames) / std::max(now.seconds, 1e-3), now.lost, now.incomplete,
+                     now.late, counted(now.points, "point"), now.sigma_mm, now.latency.quantile(0.5));
 }
 
 int run_live(LiveArguments arguments) {

@@ -4,12 +4,14 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <map>
 
 #include "apps/command.h"
 #include "apps/options.h"
 #include "apps/progress.h"
 #include "apps/table_style.h"
+#include "core/counted.h"
 #include "core/error.h"
 #include "io/atomic_file.h"
 #include "io/images.h"
@@ -80,6 +82,14 @@ void say_run_out(const CommonOptions& common, const RunOut& run_out) {
   line("axial", run_out.axial);
 }
 
+/// Three digits; what rounds to 0 has no sign.
+std::string three_digits(double value) { return fmt::format("{:.3f}", std::abs(value) < 0.0005 ? 0 : value); }
+
+std::string summary_line(const std::string& name, const Spread& spread) {
+  return fmt::format("{:<18} {:>6} {:>10} {:>10} {:>10}", name, spread.known, three_digits(spread.low),
+                     three_digits(spread.mean), three_digits(spread.high));
+}
+
 void summarise(const MeasureArguments& arguments, const MeasureJob& job, const MeasureResult& result) {
   const CommonOptions& common = arguments.common;
   if (result.references.identified()) say(common, "rail: " + result.references.identified()->name);
@@ -87,15 +97,11 @@ void summarise(const MeasureArguments& arguments, const MeasureJob& job, const M
   say(common, fmt::format("{:<18} {:>6} {:>10} {:>10} {:>10}", "", "frames", "lowest", "mean", "highest"));
   for (const std::string& name : estimate_names(job.kind)) {
     const Spread spread = spread_of(result.rows, name);
-    if (spread.known == 0) continue;
-    say(common, fmt::format("{:<18} {:>6} {:>10.3f} {:>10.3f} {:>10.3f}", name, spread.known, spread.low,
-                            spread.mean, spread.high));
+    if (spread.known > 0) say(common, summary_line(name, spread));
   }
   for (const char* const name : {"overlap_gap", "gauge", "conicity"}) {
     const Spread spread = spread_of(result.rows, name);
-    if (spread.known > 0)
-      say(common, fmt::format("{:<18} {:>6} {:>10.3f} {:>10.3f} {:>10.3f}", name, spread.known, spread.low,
-                              spread.mean, spread.high));
+    if (spread.known > 0) say(common, summary_line(name, spread));
   }
   if (result.run_out) say_run_out(common, *result.run_out);
   const Spread diameter = spread_of(result.rows, "diameter");
@@ -108,8 +114,9 @@ void summarise(const MeasureArguments& arguments, const MeasureJob& job, const M
   for (const MeasuredFrame& row : result.rows)
     if (row.status != "ok") ++reasons[row.status];
   for (const auto& [reason, count] : reasons)
-    warn(fmt::format("{} of {} frames: {}", count, result.rows.size(), reason));
-  say(common, fmt::format("{} of {} frames ok -> {}", result.num_ok, result.rows.size(), job.table.string()));
+    warn(fmt::format("{} of {}: {}", count, counted(result.rows.size(), "frame"), reason));
+  say(common, fmt::format("{} of {} ok -> {}", result.num_ok, counted(result.rows.size(), "frame"),
+                          job.table.string()));
 }
 
 int run_measure(const MeasureArguments& arguments) {
@@ -129,9 +136,9 @@ int run_measure(const MeasureArguments& arguments) {
   if (!result.usable()) return not_usable(result.not_usable);
   if (result.num_ok == 0)
     warn(
-        fmt::format("none of {} frames could be measured completely: what is not known is an empty cell "
+        fmt::format("none of {} could be measured completely: what is not known is an empty cell "
                     "(--require names what you need)",
-                    result.rows.size()));
+                    counted(result.rows.size(), "frame")));
   return kExitDone;
 }
 
@@ -155,8 +162,8 @@ int run_features(const MeasureArguments& arguments) {
                                                             estimate.sigma.value_or(0))
                                               : estimate.reason));
   }
-  say(arguments.common, fmt::format("{} of {} sections complete -> {}", result.num_complete,
-                                    result.rows.size(), job.table.string()));
+  say(arguments.common, fmt::format("{} of {} complete -> {}", result.num_complete,
+                                    counted(result.rows.size(), "section"), job.table.string()));
   return result.num_complete > 0 || result.file.measurements.empty()
              ? kExitDone
              : not_usable("no section shows all that is measured; the column `missing` says why");

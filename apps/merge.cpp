@@ -6,6 +6,7 @@
 
 #include "apps/command.h"
 #include "apps/options.h"
+#include "core/counted.h"
 
 namespace lightstripe {
 
@@ -28,7 +29,7 @@ void add_merge_command(CLI::App& app, Command& run) {
       MergeJob& job = arguments->job;
       job.output = arguments->common.output;
       merge(job);
-      say(arguments->common, fmt::format("{} parts -> {}", job.parts.size(), job.output.string()));
+      say(arguments->common, fmt::format("{} -> {}", counted(job.parts.size(), "part"), job.output.string()));
       return kExitDone;
     };
   });

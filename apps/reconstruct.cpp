@@ -8,6 +8,7 @@
 #include "apps/interrupt.h"
 #include "apps/options.h"
 #include "apps/progress.h"
+#include "core/counted.h"
 #include "core/error.h"
 #include "io/images.h"
 #include "io/number_text.h"
@@ -39,14 +40,17 @@ constexpr std::size_t kMaxShown = 5;
 void warn_of_skipped(const ReconstructResult& result, const std::string& output) {
   const ScanSummary& summary = result.summary;
   if (summary.pictures_skipped > 0)
-    warn(fmt::format("{} of {} pictures are skipped", summary.pictures_skipped,
-                     summary.pictures + summary.pictures_skipped));
+    warn(fmt::format("{} of {} {} skipped", summary.pictures_skipped,
+                     counted(summary.pictures + summary.pictures_skipped, "picture"),
+                     noun_of(summary.pictures_skipped, "is", "are")));
   for (std::size_t i = 0; i < std::min(kMaxShown, result.skipped.size()); ++i)
     warn(fmt::format("frame {} skipped: {}", result.skipped[i].frame, result.skipped[i].picture.reason));
   if (result.skipped.size() > kMaxShown) warn(fmt::format("... and more, all named in {}.run.yaml", output));
   if (!result.duplicate_pictures.empty())
-    warn(fmt::format("{} pictures have a number that another one has and are left out, the first: {}",
-                     result.duplicate_pictures.size(), result.duplicate_pictures.front()));
+    warn(fmt::format("{} a number that another one has and {} left out, the first: {}",
+                     counted(result.duplicate_pictures.size(), "picture has", "pictures have"),
+                     noun_of(result.duplicate_pictures.size(), "is", "are"),
+                     result.duplicate_pictures.front()));
 }
 
 void warn_of_gaps(const ReconstructResult& result) {
@@ -54,27 +58,33 @@ void warn_of_gaps(const ReconstructResult& result) {
   for (const std::string& warning : result.warnings) warn(warning);
   if (!result.without_picture.empty())
     warn(
-        fmt::format("the table knows {} frames without a picture, before or behind all pictures: {}; is the "
+        fmt::format("the table knows {} without a picture, before or behind all pictures: {}; is the "
                     "recording still being written?",
-                    result.without_picture.count, result.without_picture.text()));
+                    counted(result.without_picture.count, "frame"), result.without_picture.text()));
   if (!result.origin.isZero())
     warn(
         fmt::format("the cloud's coordinates count from the origin {} {} {} mm, so that 32-bit numbers carry "
                     "them; the file's header and its .run.yaml name it",
                     result.origin.x(), result.origin.y(), result.origin.z()));
   if (!summary.without_position.empty())
-    warn(fmt::format("{} frames have no position and are left out: {}", summary.without_position.count,
+    warn(fmt::format("{} left out: {}",
+                     counted(summary.without_position.count, "frame has no position and is",
+                             "frames have no position and are"),
                      summary.without_position.text()));
   if (!summary.interpolated.empty())
-    warn(
-        fmt::format("{} frames have no travel of their own, it is interpolated between their neighbours': {}",
-                    summary.interpolated.count, summary.interpolated.text()));
+    warn(fmt::format(
+        "{} neighbours': {}",
+        counted(summary.interpolated.count, "frame has no travel of its own, it is interpolated between its",
+                "frames have no travel of their own, it is interpolated between their"),
+        summary.interpolated.text()));
   if (summary.frames_without_points > 0)
-    warn(fmt::format("{} frames show no stripe", summary.frames_without_points));
+    warn(fmt::format("{} no stripe", counted(summary.frames_without_points, "frame shows", "frames show")));
   for (const std::string& sentence : result.outside_range) warn(sentence);
   if (summary.rays_missed > 0)
-    warn(fmt::format("{} stripe points have no certain laser plane, or do not meet it, and are left out",
-                     summary.rays_missed));
+    warn(fmt::format(
+        "{} left out",
+        counted(summary.rays_missed, "stripe point has no certain laser plane, or does not meet it, and is",
+                "stripe points have no certain laser plane, or do not meet it, and are")));
 }
 
 /// "A:B", "A:", ":B".
@@ -191,8 +201,8 @@ int run_reconstruct(const ReconstructArguments& arguments) {
   warn_of_gaps(result);
   if (!result.usable()) return not_usable(result.not_usable);
   say(arguments.common,
-      fmt::format("{} frames, {} points in {:.2f} s ({:.1f} frames/s) -> {}", result.summary.frames,
-                  result.summary.points, result.seconds,
+      fmt::format("{}, {} in {:.2f} s ({:.1f} frames/s) -> {}", counted(result.summary.frames, "frame"),
+                  counted(result.summary.points, "point"), result.seconds,
                   static_cast<double>(result.frames_now) / result.seconds, job.cloud.string()));
   for (const SensorLines& lines : result.lines)
     if (lines.points > 0) say(arguments.common, describe_lines(lines));

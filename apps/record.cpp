@@ -12,6 +12,7 @@
 #include "apps/live_options.h"
 #include "apps/options.h"
 #include "apps/status_line.h"
+#include "core/counted.h"
 #include "core/error.h"
 
 namespace lightstripe {
@@ -32,20 +33,21 @@ int run_record(RecordArguments arguments) {
   StatusLine line(arguments.common.quiet);
   const RecordSummary summary = record_frames(job, interrupt.token(), [&](const RecordSummary& now) {
     line.show([&] {
-      return fmt::format("recording: {} frames, {:.1f}/s, {} lost, {} incomplete", now.frames,
+      return fmt::format("recording: {}, {:.1f}/s, {} lost, {} incomplete", counted(now.frames, "frame"),
                          static_cast<double>(now.frames) / std::max(now.seconds, 1e-3), now.lost,
                          now.incomplete);
     });
   });
   line.clear();
   if (summary.lost + summary.incomplete > 0)
-    warn(fmt::format("{} frames are lost and {} incomplete, all named in frames.csv: {}", summary.lost,
-                     summary.incomplete, summary.first_missing));
+    warn(fmt::format("{} lost and {} incomplete, all named in frames.csv: {}",
+                     counted(summary.lost, "frame is", "frames are"), summary.incomplete,
+                     summary.first_missing));
   if (summary.whole == 0) return not_usable("no whole frame arrived; look at frames.csv for the reasons");
-  say(arguments.common,
-      fmt::format("{} frames in {:.2f} s ({:.1f} frames/s), {} of them whole -> {}", summary.frames,
-                  summary.seconds, static_cast<double>(summary.frames) / std::max(summary.seconds, 1e-3),
-                  summary.whole, job.folder.string()));
+  say(arguments.common, fmt::format("{} in {:.2f} s ({:.1f} frames/s), {} of them whole -> {}",
+                                    counted(summary.frames, "frame"), summary.seconds,
+                                    static_cast<double>(summary.frames) / std::max(summary.seconds, 1e-3),
+                                    summary.whole, job.folder.string()));
   return kExitDone;
 }
 

@@ -11,6 +11,7 @@
 #include "apps/options.h"
 #include "apps/progress.h"
 #include "apps/simulate.h"
+#include "core/counted.h"
 #include "io/output_guard.h"
 #include "simulate/session_output.h"
 
@@ -44,7 +45,7 @@ int run_simulate(const SimulateArguments& arguments) {
   }
   const SimulationSummary summary =
       simulate_with_progress(read_scene(arguments.scene), arguments.scene, arguments.common);
-  say(arguments.common, fmt::format("{} images; session {}, scan {}, truth {}", summary.images,
+  say(arguments.common, fmt::format("{}; session {}, scan {}, truth {}", counted(summary.images, "image"),
                                     summary.session.string(), summary.scan.string(), summary.truth.string()));
   return kExitDone;
 }

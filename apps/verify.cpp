@@ -10,6 +10,7 @@
 #include "apps/options.h"
 #include "apps/progress.h"
 #include "apps/table_style.h"
+#include "core/counted.h"
 #include "core/error.h"
 #include "io/atomic_file.h"
 #include "io/rig_file.h"
@@ -41,8 +42,8 @@ std::string describe(const Verification& verification) {
         "views)\n",
         s.name, s.plane_rms_mm, s.length_error_mm, s.corner_rms_px, s.views);
   for (const auto& s : by_seam(verification))
-    text += fmt::format("{} to {}: gap {:.3f} mm, board's place {:.3f} mm (rms, {} poses)\n", s.sensor,
-                        s.other, s.gap_mm, s.centre_gap_mm, s.poses);
+    text += fmt::format("{} to {}: gap {:.3f} mm, board's place {:.3f} mm (rms, {})\n", s.sensor, s.other,
+                        s.gap_mm, s.centre_gap_mm, counted(s.poses, "pose"));
   if (verification.travel_rms_mm)
     text += fmt::format("travel: fixed board within {:.3f} mm rms\n", *verification.travel_rms_mm);
   while (!text.empty() && text.back() == '\n') text.pop_back();
@@ -72,9 +73,9 @@ ArtefactJob artefact_job_of(const VerifyArguments& arguments) {
 
 std::string describe(const ArtefactCheck& check) {
   std::string text = fmt::format(
-      "{} of {:g} mm: measured {:.4f} mm, error {:+.4f} mm, sigma {:.4f} mm ({} points, scatter {:.4f} mm)",
-      check.artefact, check.size_mm, check.measured_mm, check.error_mm, check.sigma_mm, check.points,
-      check.scatter_mm);
+      "{} of {:g} mm: measured {:.4f} mm, error {:+.4f} mm, sigma {:.4f} mm ({}, scatter {:.4f} mm)",
+      check.artefact, check.size_mm, check.measured_mm, check.error_mm, check.sigma_mm,
+      counted(check.points, "point"), check.scatter_mm);
   if (check.drift_mm)
     text +=
         fmt::format("\nsince the last check: {:+.4f} mm, sigma {:.4f} mm{}", *check.drift_mm,
@@ -108,7 +109,8 @@ int run_verify(const VerifyArguments& arguments) {
   if (!common.output.empty()) job.table = common.output;
   job.threads = common.threads;
   const VerifyResult result = verify(job, progress_line(common.quiet));
-  say(common, fmt::format("boards: found in {} of {} images", result.seen.boards_found, result.seen.images));
+  say(common, fmt::format("boards: found in {} of {}", result.seen.boards_found,
+                          counted(result.seen.images, "image")));
   for (const auto& image : result.seen.rejected)
     warn(fmt::format("{} {}: {}", image.sensor, image.image, image.reason));
   if (!result.measured) return not_usable(result.not_usable);

@@ -9,6 +9,7 @@
 
 #include "apps/command.h"
 #include "apps/options.h"
+#include "core/counted.h"
 #include "io/atomic_file.h"
 #include "io/output_guard.h"
 #include "io/rig_file.h"
@@ -68,7 +69,7 @@ int run_view(const ViewArguments& arguments) {
   const std::string page = cloud_view_html(view);
   write_file(output, page);
   say(arguments.common,
-      fmt::format("{} of {} points, {:.1f} MB, in {:.1f} s -> {}", view.points.size(), view.total,
+      fmt::format("{} of {}, {:.1f} MB, in {:.1f} s -> {}", view.points.size(), counted(view.total, "point"),
                   static_cast<double>(page.size()) / 1e6,
                   std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), output));
   return kExitDone;

@@ -11,6 +11,7 @@
 #include <iterator>
 #include <numeric>
 
+#include "core/counted.h"
 #include "core/error.h"
 #include "core/random.h"
 #include "core/robust.h"
@@ -25,6 +26,7 @@ using Eigen::Vector3d;
 constexpr int kMinPoints = 30, kMinGroups = 4;
 constexpr double kTrimSigmas = 4;
 constexpr double kSizeTolerance = 0.2;
+constexpr double kMostScatter = 0.005, kMostSigma = 0.01;  // of the known size
 
 /// The points that a shape explains, with the group of each.
 struct Used {
@@ -204,6 +206,12 @@ std::optional<ArtefactMeasurement> measured(const Used& used, const Points3& pla
                              static_cast<int>(used.points.size())};
 }
 
+/// What looks like the body by chance (a ball in a rail's corner, two of many faces) does not lie on its
+/// shape, or changes its size with the part that is looked at.
+bool is_the_body(const ArtefactMeasurement& m, const ArtefactSpec& spec) {
+  return m.scatter_mm <= kMostScatter * spec.size_mm && m.sigma_mm <= kMostSigma * spec.size_mm;
+}
+
 std::optional<ArtefactMeasurement> measure_step(const Points3& points, const std::vector<int>& groups,
                                                 const ArtefactSpec& spec, std::string& why_not) {
   const auto found = find_step(points, spec);
@@ -258,11 +266,20 @@ std::optional<ArtefactMeasurement> measure_artefact(const Points3& points, const
   LIGHTSTRIPE_CHECK(!(spec.section && spec.kind == Artefact::kSphere),
                     "one section does not tell a ball's size");
   if (points.size() < static_cast<std::size_t>(kMinPoints)) {
-    why_not = fmt::format("only {} points were measured", points.size());
+    why_not = fmt::format("only {} measured", counted(points.size(), "point was", "points were"));
     return std::nullopt;
   }
-  return spec.kind == Artefact::kStep ? measure_step(points, groups, spec, why_not)
-                                      : measure_round(points, groups, spec, why_not);
+  auto found = spec.kind == Artefact::kStep ? measure_step(points, groups, spec, why_not)
+                                            : measure_round(points, groups, spec, why_not);
+  if (found && !is_the_body(*found, spec)) {
+    why_not = fmt::format(
+        "no {} of {:g} mm is in the points: what comes nearest has {:.4g} mm with a sigma of {:.2g} mm, and "
+        "scatters by "
+        "{:.2g} mm about its shape",
+        enum_name(spec.kind), spec.size_mm, found->size_mm, found->sigma_mm, found->scatter_mm);
+    found.reset();
+  }
+  return found;
 }
 
 }  // namespace lightstripe

@@ -36,13 +36,14 @@ struct ArtefactMeasurement {
 /// `points`: rig frame, mm; `groups`: for each point the part that it is left out with (frames of a scan,
 /// pieces of a line), whose errors have nothing in common; not decreasing. At least 4 groups and 30 points.
 ///
-/// step: the two parallel faces whose distance is within a third of the known height, and that hold most
+/// step: the two parallel faces whose distance is within a tenth of the known height, and that hold most
 /// points; common normal by total least squares; of a scan
 /// without the sixth of each face at either end. cylinder, sphere: a first circle or ball within a twentieth
 /// of the known size that explains most points (RANSAC; cylinders within about 20 degrees of an axis of the
 /// rig frame), then least squares of the distances to the surface, points beyond 4 sigma left out. Sigma:
 /// delete-one-group jackknife (Efron 1982) over the groups, or over eight parts of the body if that is
-/// larger. Nothing where no such body is found; `why_not` then says so.
+/// larger. Nothing where no such body is found, or where its points scatter by more than 0.5 % of the size or
+/// leave it uncertain by more than 1 %: that is something else; `why_not` then says so.
 std::optional<ArtefactMeasurement> measure_artefact(const std::vector<Eigen::Vector3d>& points,
                                                     const std::vector<int>& groups, const ArtefactSpec& spec,
                                                     std::string& why_not);

@@ -12,7 +12,7 @@
 
 namespace lightstripe {
 
-inline constexpr double kStepTolerance = 0.33;  // of the known height
+inline constexpr double kStepTolerance = 0.1;  // of the known height
 
 /// At most some 3000 points, without the plane (of a section: the straight line) that most bodies stand on,
 /// where it holds a third of the points or more.

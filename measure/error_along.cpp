@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "measure/error_along.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -34,18 +35,27 @@ std::vector<Covariances> covariances_along(const Section& section, const std::ve
   return bins;
 }
 
-/// Of the chains' pieces whose points count, mm.
-double counting_length(const Section& section, const std::vector<FitPoint>& points) {
-  constexpr double kGapMm = 3;
-  double length = 0;
-  for (std::size_t i = 1; i < points.size(); ++i) {
-    const FitPoint &a = points[i - 1], &b = points[i];
-    const double step = (b.position - a.position).norm();
-    const bool joined =
-        section[static_cast<std::size_t>(a.index)].chain == section[static_cast<std::size_t>(b.index)].chain;
-    if (joined && a.weight > 0 && b.weight > 0 && step < kGapMm) length += step;
+/// What the point's residual changes by with turn and shift.
+Eigen::Vector3d gradient_of(const FitPoint& point) {
+  const Eigen::Vector2d &p = point.position, &n = point.normal;
+  return {p.x() * n.y() - p.y() * n.x(), n.x(), n.y()};
+}
+
+/// Of the shared part's variance, what goes into the pose instead of the residuals: tr(H^-1 G) of the normal
+/// equations H and the covariance G of their right side, over the sum of weights.
+double share_in_pose(const ErrorAlong& error, const Section& section, const std::vector<FitPoint>& points) {
+  constexpr double kMostLost = 2.0 / 3;  // beyond it the little that is left tells nothing
+  if (error.shared_mm <= 0) return 0;
+  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+  double weights = 0;
+  for (const FitPoint& point : points) {
+    if (point.weight <= 0) continue;
+    const Eigen::Vector3d g = gradient_of(point);
+    normal += point.weight * g * g.transpose(), weights += point.weight;
   }
-  return length;
+  const Eigen::Matrix3d unit = gradient_covariance({0, 1, error.length_mm}, section, points);
+  const double share = normal.ldlt().solve(unit).trace() / weights;
+  return std::isfinite(share) ? std::clamp(share, 0.0, kMostLost) : kMostLost;
 }
 
 }  // namespace
@@ -74,10 +84,9 @@ ErrorAlong error_along(const Section& section, const std::vector<FitPoint>& poin
       cost += bin.pairs * std::pow(bin.product - shared * std::exp(-bin.distance_mm / length), 2);
     if (cost < best_cost) best_cost = cost, best = {std::sqrt(variance - shared), std::sqrt(shared), length};
   }
-  // The pose has taken three parameters out of what so many independent stretches share.
-  constexpr double kParameters = 3, kMostLost = 2.0 / 3;
-  const double stretches = counting_length(section, points) / (2 * best.length_mm);
-  best.shared_mm /= std::sqrt(1 - std::min(kMostLost, kParameters / std::max(1.0, stretches)));
+  // The pose took the long waves: neighbours differ as before, by shared^2 / length.
+  const double grown = 1 / (1 - share_in_pose(best, section, points));
+  best.shared_mm *= std::sqrt(grown), best.length_mm *= grown;
   return best;
 }
 
@@ -136,8 +145,7 @@ Eigen::Matrix3d gradient_covariance(const ErrorAlong& error, const Section& sect
       before *= chain_of(*last) == chain_of(point)
                     ? std::exp(-(point.position - last->position).norm() / error.length_mm)
                     : 0.0;
-    const Eigen::Vector2d &p = point.position, &n = point.normal;
-    const Eigen::Vector3d g = point.weight * Eigen::Vector3d(p.x() * n.y() - p.y() * n.x(), n.x(), n.y());
+    const Eigen::Vector3d g = point.weight * gradient_of(point);
     sum += (own + shared) * g * g.transpose() + shared * (g * before.transpose() + before * g.transpose());
     before += g;
     last = &point;

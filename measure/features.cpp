@@ -9,6 +9,7 @@
 #include <numbers>
 #include <set>
 
+#include "core/counted.h"
 #include "core/error.h"
 
 namespace lightstripe {
@@ -348,7 +349,7 @@ void check_quantity(const QuantityRecipe& one, const Names& names) {
   const Use use = use_of(one.type);
   if (one.of.size() < use.least || one.of.size() > use.most)
     throw Error(subject,
-                "names " + std::to_string(one.of.size()) + " features, " + std::to_string(use.least) +
+                "names " + counted(one.of.size(), "feature") + ", " + std::to_string(use.least) +
                     (use.most > use.least ? " or " + std::to_string(use.most) : "") + " needed",
                 "correct `of`");
   for (const std::string& feature : one.of) names.type_of(feature, one.name);

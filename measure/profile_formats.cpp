@@ -8,6 +8,7 @@
 #include <cmath>
 #include <istream>
 
+#include "core/counted.h"
 #include "core/error.h"
 #include "measure/profile_orientation.h"
 
@@ -108,8 +109,7 @@ void add_point(RecordedProfile& profile, double x, double y, const std::string& 
 
 void check_size(const RecordedProfile& profile, const std::string& name) {
   if (profile.points.size() < 10)
-    throw Error(name, "has only " + std::to_string(profile.points.size()) + " points",
-                "give a recorded profile");
+    throw Error(name, "has only " + counted(profile.points.size(), "point"), "give a recorded profile");
 }
 
 /// "Key=value", or the older "Key.....: value"; false if the line is neither.

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/counted.h"
 #include "core/robust.h"
 #include "measure/closest_points.h"
 #include "measure/correlation.h"
@@ -232,7 +233,7 @@ double fitting_share(const Fit& fit, ObjectKind kind) {
 std::string judged(const Fit& fit, const Registration& out, const ReferenceShape& reference,
                    const RegistrationOptions& options) {
   if (out.num_points < options.min_fit_points)
-    return fmt::format("only {} points on parts that do not wear, {} needed", out.num_points,
+    return fmt::format("only {} on parts that do not wear, {} needed", counted(out.num_points, "point"),
                        options.min_fit_points);
   if (out.rms_mm > options.max_fit_rms_mm)
     return fmt::format("fit to {} is {:.2f} mm rms, limit {:.2f}", reference.name(), out.rms_mm,
@@ -264,7 +265,7 @@ Registration register_section(const Section& section, const ReferenceShape& refe
                               const SectionPrior& prior, const RegistrationOptions& options) {
   Registration out;
   if (static_cast<int>(section.size()) < options.min_fit_points) {
-    out.reason = fmt::format("only {} points", section.size());
+    out.reason = "only " + counted(section.size(), "point");
     return out;
   }
   Fit fit;

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "calib/board/observe_board.h"
+#include "core/counted.h"
 #include "core/error.h"
 #include "core/robust.h"
 #include "io/images.h"
@@ -98,12 +99,13 @@ std::string calibration_advice(const Session& session, const SessionObservations
                                    [](const auto& image) { return moved_within_pair(image.reason); });
   if (moved > 1) {
     const std::string guess = other_partners(session, seen);
-    return fmt::format("; in {} pairs the board moved between the picture without laser and that with it: {}",
-                       moved, guess.empty() ? "are they pictures of one pose?" : guess);
+    return fmt::format("; in {} the board moved between the picture without laser and that with it: {}",
+                       counted(moved, "pair"), guess.empty() ? "are they pictures of one pose?" : guess);
   }
   const auto [reason, count] = commonest_reason(seen.rejected);
   if (2 * static_cast<int>(seen.rejected.size()) < seen.images) return "";
-  return fmt::format("; of {} images that were left out {}: {}", seen.rejected.size(),
+  return fmt::format("; of {} left out {}: {}",
+                     counted(seen.rejected.size(), "image that was", "images that were"),
                      count == seen.rejected.size() ? "all" : std::to_string(count), reason);
 }
 

@@ -11,6 +11,7 @@
 #include <fstream>
 #include <numbers>
 
+#include "core/counted.h"
 #include "core/error.h"
 #include "core/robust.h"
 #include "io/atomic_file.h"
@@ -70,7 +71,7 @@ Source read_source(const std::string& source, ObjectKind kind) {
     out.measured = false;
   }
   if (out.points.size() < kFewestPoints)
-    throw Error(source, fmt::format("has {} points", out.points.size()), "give a profile of 30 or more");
+    throw Error(source, "has " + counted(out.points.size(), "point"), "give a profile of 30 or more");
   if (out.points.front().x() > out.points.back().x()) std::reverse(out.points.begin(), out.points.end());
   return out;
 }

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <sstream>
 
+#include "core/counted.h"
 #include "core/error.h"
 #include "io/atomic_file.h"
 #include "io/output_guard.h"
@@ -88,9 +89,9 @@ void check_required(const MeasureJob& job) {
 std::string why_not_usable(const MeasureJob& job, const MeasureResult& result) {
   if (result.num_known > 0) return "";
   return job.options.required.empty()
-             ? fmt::format("nothing could be measured in any of {} frames", result.rows.size())
-             : fmt::format("none of {} is known in any of {} frames", fmt::join(job.options.required, ", "),
-                           result.rows.size());
+             ? fmt::format("nothing could be measured in any of {}", counted(result.rows.size(), "frame"))
+             : fmt::format("none of {} is known in any of {}", fmt::join(job.options.required, ", "),
+                           counted(result.rows.size(), "frame"));
 }
 
 void guard(const MeasureJob& job) {

@@ -10,6 +10,7 @@
 
 #include "calib/board/board_shift.h"
 #include "calib/board/straight_lines.h"
+#include "core/counted.h"
 #include "core/error.h"
 #include "core/robust.h"
 #include "extraction/extract_stripes.h"
@@ -198,10 +199,11 @@ void note_common_size(const Session& session, std::vector<ViewResult>& results) 
     return;
   const auto [columns, rows] = commonest->first;
   if (columns == session.target.columns && rows == session.target.rows) return;
-  const std::string reason = fmt::format(
-      "{} pictures show {} x {} inner corners, the session says {} x {}",
-      commonest->second == static_cast<int>(results.size()) ? "all" : std::to_string(commonest->second),
-      columns, rows, session.target.columns, session.target.rows);
+  const std::string reason = fmt::format("{} {} x {} inner corners, the session says {} x {}",
+                                         commonest->second == static_cast<int>(results.size())
+                                             ? "all pictures show"
+                                             : counted(commonest->second, "picture shows", "pictures show"),
+                                         columns, rows, session.target.columns, session.target.rows);
   for (auto& result : results) {
     if (result.view || result.seen_columns != columns || result.seen_rows != rows) continue;
     result.picture.reason = reason;

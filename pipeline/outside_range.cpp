@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/counted.h"
+
 namespace lightstripe {
 namespace {
 
@@ -26,9 +28,10 @@ std::vector<std::string> outside_range_texts(const std::vector<OutsideRange>& al
   std::vector<std::string> texts;
   for (const OutsideRange& outside : all) {
     const Sensor& sensor = rig.sensors[static_cast<std::size_t>(outside.sensor)];
-    std::string text = fmt::format(
-        "{} stripe points of {} may lie outside its depth_range [{:.0f}, {:.0f}] and are left out",
-        outside.points, sensor.name, sensor.depth_range_mm[0], sensor.depth_range_mm[1]);
+    std::string text =
+        fmt::format("{} of {} may lie outside its depth_range [{:.0f}, {:.0f}] and {} left out",
+                    counted(outside.points, "stripe point"), sensor.name, sensor.depth_range_mm[0],
+                    sensor.depth_range_mm[1], noun_of(outside.points, "is", "are"));
     if (outside.farthest_mm > 0)
       text += fmt::format(
           ", for certain from {:.0f} to {:.0f} mm; depth_range: {} in rig.yaml keeps these, boards there "
@@ -44,9 +47,9 @@ std::vector<std::string> outside_range_texts(const std::vector<OutsideRange>& al
 }
 
 std::string why_all_missed(const ScanSummary& summary, const std::vector<std::string>& outside_range) {
-  std::string text = fmt::format(
-      "lines were seen in {} frames, but none of their {} points has a certain place (nothing is written); ",
-      summary.frames, summary.rays_missed);
+  std::string text =
+      fmt::format("lines were seen in {}, but none of their {} has a certain place (nothing is written); ",
+                  counted(summary.frames, "frame"), counted(summary.rays_missed, "point"));
   for (const std::string& sentence : outside_range) text += sentence + "; ";
   return text + "look at a frame with `lightstripe extract --overlay`: which line is which laser's?";
 }

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "core/counted.h"
 #include "core/error.h"
 #include "io/atomic_file.h"
 #include "io/output_guard.h"
@@ -30,8 +31,8 @@ void check_sensors(const VerifyJob& job, const CalibrationObservations& observat
                   "verify with pictures of the calibrated camera and setting");
     if (seen.laser_planes != static_cast<int>(found->laser_planes.size()))
       throw Error(job.session_file.string(),
-                  fmt::format("sensor {} says {} laser planes, the rig has {}", seen.name, seen.laser_planes,
-                              found->laser_planes.size()),
+                  fmt::format("sensor {} says {}, the rig has {}", seen.name,
+                              counted(seen.laser_planes, "laser plane"), found->laser_planes.size()),
                   "give laser_planes as in the calibration session");
   }
 }

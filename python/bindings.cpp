@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "arrays.h"
+#include "core/counted.h"
 #include "core/error.h"
 #include "extraction/extract_stripes.h"
 #include "io/atomic_file.h"
@@ -144,8 +145,8 @@ void add_rig(py::module_& module) {
       .def_property_readonly(
           "rig_from_camera", [](const Sensor& s) { return matrix_of(s.rig_from_camera); }, "4 x 4, mm")
       .def("__repr__", [](const Sensor& s) {
-        return fmt::format("<lightstripe.Sensor '{}', {} x {} px, {} laser plane{}>", s.name, s.camera.width,
-                           s.camera.height, s.laser_planes.size(), s.laser_planes.size() == 1 ? "" : "s");
+        return fmt::format("<lightstripe.Sensor '{}', {} x {} px, {}>", s.name, s.camera.width,
+                           s.camera.height, counted(s.laser_planes.size(), "laser plane"));
       });
   py::class_<Rig>(module, "Rig", "A calibrated rig, as rig.yaml holds it.")
       .def_readonly("sensors", &Rig::sensors)
@@ -184,9 +185,8 @@ void add_extraction(py::module_& module) {
       .def("__repr__", [](const ExtractionResult& result) {
         std::size_t points = 0;
         for (const Stripe& stripe : result.stripes) points += stripe.points.size();
-        return fmt::format("<lightstripe.Extraction of {} stripe{}, {} points, sigma {:.2f} px>",
-                           result.stripes.size(), result.stripes.size() == 1 ? "" : "s", points,
-                           result.sigma);
+        return fmt::format("<lightstripe.Extraction of {}, {}, sigma {:.2f} px>",
+                           counted(result.stripes.size(), "stripe"), counted(points, "point"), result.sigma);
       });
   py::enum_<StripeFlag>(module, "StripeFlag", py::arithmetic(), "Bits of a stripe point's `flags`.")
       .value("BRIDGED", kStripeBridged, "placed across a gap or a crossing")
@@ -223,8 +223,8 @@ void add_profiles(py::module_& module) {
           "points", [](const py::object& self) { return view_of(self.cast<const Profile&>().points, self); },
           "record array (x, y, z, u, v, sigma in mm ...) that looks at the profile's own memory")
       .def("__repr__", [](const Profile& profile) {
-        return fmt::format("<lightstripe.Profile of frame {}, travel {}, {} points>", profile.frame,
-                           profile.travel, profile.points.size());
+        return fmt::format("<lightstripe.Profile of frame {}, travel {}, {}>", profile.frame, profile.travel,
+                           counted(profile.points.size(), "point"));
       });
   module.def("triangulate", &triangulate, py::arg("extractions"), py::arg("rig"), py::arg("travel") = 0.0,
              py::arg("frame") = 0,

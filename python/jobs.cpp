@@ -18,6 +18,7 @@
 #include <utility>
 
 #include "arrays.h"
+#include "core/counted.h"
 #include "core/error.h"
 #include "options.h"
 #include "pipeline/calibrate_job.h"
@@ -94,8 +95,9 @@ void add_calibrate(py::module_& module) {
       .def_property_readonly("rejected", &rejected_of, "list of dicts: sensor, image, reason")
       .def_property_readonly("views", &views_of, "list of dicts: residuals of each view, px")
       .def("__repr__", [](const CalibrateResult& r) {
-        return fmt::format("<lightstripe.Calibration, {}, boards in {} of {} images>",
-                           r.usable() ? "usable" : "not usable", r.seen.boards_found, r.seen.images);
+        return fmt::format("<lightstripe.Calibration, {}, boards in {} of {}>",
+                           r.usable() ? "usable" : "not usable", r.seen.boards_found,
+                           counted(r.seen.images, "image"));
       });
   module.def(
       "calibrate", &run_calibrate, "session"_a, "output"_a = py::none(), py::kw_only(),
@@ -185,8 +187,9 @@ void add_reconstruct(py::module_& module) {
       .def_property_readonly("cloud", &cloud_of,
                              "the written cloud as a record array; None where no file was written")
       .def("__repr__", [](const Reconstruction& r) {
-        return fmt::format("<lightstripe.Reconstruction of {} frames, {} points>", r.result.summary.frames,
-                           r.result.summary.points);
+        return fmt::format("<lightstripe.Reconstruction of {}, {}>",
+                           counted(r.result.summary.frames, "frame"),
+                           counted(r.result.summary.points, "point"));
       });
   module.def(
       "reconstruct",
@@ -277,7 +280,8 @@ void add_measure(py::module_& module) {
                              "list of dicts, the rows of measurements.csv; None where a value is not known. "
                              "pandas.DataFrame(m.rows) makes a table of them.")
       .def("__repr__", [](const MeasureResult& r) {
-        return fmt::format("<lightstripe.Measurements of {} sections, {} ok>", r.rows.size(), r.num_ok);
+        return fmt::format("<lightstripe.Measurements of {}, {} ok>", counted(r.rows.size(), "section"),
+                           r.num_ok);
       });
   module.def(
       "measure", &run_measure, "profiles"_a, "kind"_a, "output"_a = py::none(), py::kw_only(),

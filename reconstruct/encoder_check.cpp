@@ -10,6 +10,7 @@
 #include <numeric>
 #include <optional>
 
+#include "core/counted.h"
 #include "reconstruct/frame_ranges.h"
 
 namespace lightstripe {
@@ -177,8 +178,9 @@ class Check {
   void say_left_out() {
     if (left_out_.count == 0) return;
     out_.warnings.push_back(fmt::format(
-        "{} readings that no rig can have reached (the first: {:.10g} {}) are left out, frames {}",
-        left_out_.count, first_error_, unit(), left_out_.text()));
+        "{} that no rig can have reached (the first: {:.10g} {}) {} left out, {} {}",
+        counted(left_out_.count, "reading"), first_error_, unit(), noun_of(left_out_.count, "is", "are"),
+        noun_of(left_out_.count, "frame"), left_out_.text()));
   }
 
   void say_stuck() {
@@ -193,9 +195,9 @@ class Check {
     }
     if (stuck.count > 0)
       out_.warnings.push_back(
-          fmt::format("{} frames have the very travel of the frame before them: the rig stood still, or the "
+          fmt::format("{} the very travel of the frame before them: the rig stood still, or the "
                       "counter was stuck and their sections lie in one place: frames {}",
-                      stuck.count, stuck.text()));
+                      counted(stuck.count, "frame has", "frames have"), stuck.text()));
   }
 
   static constexpr int kMostNamed = 5;

@@ -9,6 +9,7 @@
 #include <optional>
 #include <string_view>
 
+#include "core/counted.h"
 #include "core/error.h"
 #include "reconstruct/cloud.h"
 #include "reconstruct/cloud_header.h"
@@ -77,7 +78,8 @@ Header check_header(const std::filesystem::path& path, CloudFormat format) {
   const auto found = std::filesystem::file_size(path);
   if (found != bytes)
     throw Error(path.string(),
-                fmt::format("{} points need {} bytes but the file has {}", *num_points, bytes, found),
+                fmt::format("{} {} bytes but the file has {}",
+                            counted(*num_points, "point needs", "points need"), bytes, found),
                 "it was cut short or changed: reconstruct the cloud again");
   return header;
 }

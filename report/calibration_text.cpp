@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "core/counted.h"
+
 namespace lightstripe {
 namespace {
 
@@ -31,6 +33,7 @@ std::string describe_views(const std::vector<ViewResidual>& views) {
 std::string describe_lenses(const std::vector<LensChoice>& lenses) {
   std::string text;
   for (const auto& choice : lenses) {
+    if (choice.lens == LensModel::kAuto) continue;  // the camera is given, none was chosen
     text += fmt::format("{}: lens model {}", choice.sensor, enum_name(choice.lens));
     std::string tried;
     for (const auto& trial : choice.trials)
@@ -44,7 +47,8 @@ std::string describe_lenses(const std::vector<LensChoice>& lenses) {
 }  // namespace
 
 std::string describe_calibration(const SessionObservations& seen, const CalibrationResult& result) {
-  std::string text = fmt::format("boards: found in {} of {} images\n", seen.boards_found, seen.images);
+  std::string text =
+      fmt::format("boards: found in {} of {}\n", seen.boards_found, counted(seen.images, "image"));
   for (const auto& [sensor, channel] : seen.channels)
     if (channel != Channel::kGray)
       text += fmt::format("{}: lines are looked for in the channel {}\n", sensor, enum_name(channel));
@@ -53,18 +57,20 @@ std::string describe_calibration(const SessionObservations& seen, const Calibrat
   text += describe_lenses(result.summary.lenses);
   const RigQuality& quality = result.rig.quality;
   for (const auto& s : quality.sensors)
-    text += fmt::format("{}: corners {:.3f} px rms in {} views{}\n", s.name, s.board_rms_px, s.board_views,
-                        s.stripe_views > 0 ? fmt::format(", stripe {:.3f} px rms in {} views",
-                                                         s.stripe_rms_px, s.stripe_views)
-                                           : ", no stripe");
+    text += fmt::format(
+        "{}: corners {:.3f} px rms in {}{}\n", s.name, s.board_rms_px, counted(s.board_views, "view"),
+        s.stripe_views > 0
+            ? fmt::format(", stripe {:.3f} px rms in {}", s.stripe_rms_px, counted(s.stripe_views, "view"))
+            : ", no stripe");
   if (quality.section_shape_sigma_mm > 0)
     text += fmt::format("predicted error of a section: {} mm in shape, {} mm in place\n",
                         millimetres(quality.section_shape_sigma_mm),
                         millimetres(quality.section_absolute_sigma_mm));
   for (const auto& stripes : result.summary.stripes)
-    text += fmt::format("{}{}: {} of {} stripes lie in the laser plane\n", stripes.sensor,
+    text += fmt::format("{}{}: {} of {} {} in the laser plane\n", stripes.sensor,
                         stripes.plane > 0 ? fmt::format(", laser plane {}", stripes.plane + 1) : "",
-                        stripes.agreeing, stripes.found);
+                        stripes.agreeing, counted(stripes.found, "stripe"),
+                        noun_of(stripes.agreeing, "lies", "lie"));
   if (quality.cross_validation_ratio)
     text += fmt::format("every other view against the rest: sections differ by {:.2f} times the prediction\n",
                         *quality.cross_validation_ratio);

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "core/counted.h"
+
 namespace lightstripe {
 namespace {
 
@@ -35,11 +37,11 @@ std::string explain_extraction(const std::string& image, Channel channel, const 
       "  thresholds   {}: T_l {:g} (background below), T_h {:g} (foreground above)\n"
       "  noise        {:.2f} grey levels\n"
       "  scale        sigma {:.2f} px = stripe width {:.1f} px{}\n"
-      "  found        {} lines",
+      "  found        {}",
       image, enum_name(channel), t.t_min, t.t_rosin, t.t_otsu, t.t_max, decision(options, t), rule(options),
       result.threshold_low, result.threshold_high, result.noise, result.sigma,
       result.sigma * 3.4641016151377544, options.sigma || options.stripe_width ? ", as given" : ", estimated",
-      result.stripes.size());
+      counted(result.stripes.size(), "line"));
 }
 
 }  // namespace lightstripe

@@ -9,6 +9,7 @@
 #include <limits>
 #include <numbers>
 
+#include "core/counted.h"
 #include "report/charts_page.h"
 
 namespace lightstripe {
@@ -87,14 +88,14 @@ LineChart section_of_row(const FeaturesResult& result, std::size_t row) {
 }  // namespace
 
 std::string features_report_html(const FeaturesJob& job, const FeaturesResult& result) {
-  ChartsPage page{
-      "Features of a section",
-      fmt::format("{} of {} sections measured completely", result.num_complete, result.rows.size()),
-      {},
-      {"quantity", "sections", "lowest", "mean", "highest", "mean sigma", "min", "max"},
-      {},
-      {fmt::format("From {}, features of {}.", job.profiles.string(), job.features.string())},
-      {}};
+  ChartsPage page{"Features of a section",
+                  fmt::format("{} of {} measured completely", result.num_complete,
+                              counted(result.rows.size(), "section")),
+                  {},
+                  {"quantity", "sections", "lowest", "mean", "highest", "mean sigma", "min", "max"},
+                  {},
+                  {fmt::format("From {}, features of {}.", job.profiles.string(), job.features.string())},
+                  {}};
   for (std::size_t i = 0; i < result.file.measurements.size(); ++i) {
     page.rows.push_back(row_of(result, i));
     const auto known = [i](const MeasuredFeatures& row) { return row.quantities[i].value.has_value(); };

@@ -9,6 +9,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "core/counted.h"
 #include "core/error.h"
 #include "core/robust.h"
 #include "io/atomic_file.h"
@@ -198,10 +199,9 @@ void explain_score(const std::vector<LabelledLine>& labels, const std::vector<St
         median(0, stripe.points.size(), [&](std::size_t i) { return stripe.points[i].intensity; });
     score.false_lines.push_back(
         {static_cast<double>(off),
-         fmt::format(
-             "{} false points at ({:.0f}, {:.0f}): a line {:.0f} grey levels high, the strongest stretch "
-             "of the laser {:.0f}",
-             off, middle.x, middle.y, height, strongest)});
+         fmt::format("{} at ({:.0f}, {:.0f}): a line {:.0f} grey levels high, the strongest stretch "
+                     "of the laser {:.0f}",
+                     counted(off, "false point"), middle.x, middle.y, height, strongest)});
   }
   for (auto* faults : {&score.missed, &score.false_lines})
     std::stable_sort(faults->begin(), faults->end(),

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/counted.h"
 #include "core/error.h"
 #include "io/atomic_file.h"
 #include "pipeline/height_map_files.h"
@@ -27,7 +28,8 @@ std::string filter_in_place(const fs::path& cloud, const CloudFilter& filter) {
   std::string bytes = cloud_header(part.format, static_cast<std::int64_t>(points.size()), part.origin);
   bytes.append(reinterpret_cast<const char*>(points.data()), points.size() * sizeof(CloudPoint));
   write_file(cloud, bytes);
-  return fmt::format("filter: {} of {} points stay -> {}", points.size(), before, cloud.string());
+  return fmt::format("filter: {} of {} {} -> {}", points.size(), counted(before, "point"),
+                     noun_of(points.size(), "stays", "stay"), cloud.string());
 }
 
 std::string make_map(const ReconstructJob& job, const ScanProducts& products) {
@@ -54,7 +56,7 @@ std::string make_mesh(const ReconstructJob& job, const ScanProducts& products) {
   AtomicFile file(products.mesh);
   write_mesh(file.temporary(), mesh, products.mesh);
   file.commit();
-  return fmt::format("mesh of {} triangles, edges up to {:.2f} mm -> {}", mesh.triangles.size(),
+  return fmt::format("mesh of {}, edges up to {:.2f} mm -> {}", counted(mesh.triangles.size(), "triangle"),
                      mesh.max_edge_mm, products.mesh.string());
 }
 
@@ -63,7 +65,8 @@ std::string make_view(const ReconstructJob& job, const ScanProducts& products) {
   for (const Sensor& sensor : job.rig.sensors) view.sensors.push_back(sensor.name);
   view.links = frame_links(job.scan_file.string(), job.rig_file.string(), products.view, frames_shown(view));
   write_file(products.view, cloud_view_html(view));
-  return fmt::format("view of {} of {} points -> {}", view.points.size(), view.total, products.view.string());
+  return fmt::format("view of {} of {} -> {}", view.points.size(), counted(view.total, "point"),
+                     products.view.string());
 }
 
 }  // namespace

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/counted.h"
+
 namespace lightstripe {
 
 std::string accuracy_table(const RigError& rig, const CloudError& cloud,
@@ -22,7 +24,8 @@ std::string accuracy_table(const RigError& rig, const CloudError& cloud,
     if (one.name == "diameter")
       row("diameter, mean of the turn", fmt::format("{:.3f} mm", std::abs(one.mean_mm)));
     else
-      row(fmt::format("{} of {} sections, rms", name, one.frames), fmt::format("{:.4f} mm", one.rms_mm));
+      row(fmt::format("{} of {}, rms", name, counted(one.frames, "section")),
+          fmt::format("{:.4f} mm", one.rms_mm));
   };
   row("result against the known truth", "error");
   table += fmt::format("|{:-<60}|{:->13}:|\n", "", "");

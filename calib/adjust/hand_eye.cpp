@@ -20,6 +20,7 @@
 #include "calib/adjust/parameter_blocks.h"
 #include "calib/adjust/rig_state.h"
 #include "calib/adjust/tool_pose_error.h"
+#include "core/counted.h"
 #include "core/robust.h"
 
 namespace lightstripe {
@@ -118,9 +119,9 @@ void refuse_standing_tool(const std::vector<ToolView>& views) {
   constexpr double kMinTurn = 5 * kDegree;
   if (views.size() < kMinViews)
     throw NotUsable(
-        fmt::format("motion: the board was found in {} pictures with a pose of the tool; at least {} are "
+        fmt::format("motion: the board was found in {} with a pose of the tool; at least {} are "
                     "needed, better 20",
-                    views.size(), kMinViews));
+                    counted(views.size(), "picture"), kMinViews));
   Matrix3d axes = Matrix3d::Zero();
   double largest = 0;
   for (const auto& view : views) {

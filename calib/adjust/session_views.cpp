@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/counted.h"
 #include "core/error.h"
 
 namespace lightstripe {
@@ -94,9 +95,9 @@ void add_sensor(SessionViews& result, const SensorObservations& sensor, int inde
   const bool camera_is_known = sensor.given_camera && sensor.given_camera->fixed;
   if (static_cast<int>(sensor.views.size()) < kMinViews && !(sensor.bed && camera_is_known))
     throw NotUsable(
-        fmt::format("sensor {}: the board was found in {} images only; at least {} are needed, take 15 to 30 "
+        fmt::format("sensor {}: the board was found in {} only; at least {} are needed, take 15 to 30 "
                     "with the board tilted by 20 to 45 degrees to different sides",
-                    sensor.name, sensor.views.size(), kMinViews));
+                    sensor.name, counted(sensor.views.size(), "image"), kMinViews));
   result.sensor_names.push_back(sensor.name);
   result.image_sizes.push_back({sensor.width, sensor.height});
   result.given_cameras.push_back(sensor.given_camera);

@@ -8,6 +8,7 @@
 #include <map>
 
 #include "calib/assess/verdict.h"
+#include "core/counted.h"
 #include "core/robust.h"
 
 namespace lightstripe {
@@ -65,9 +66,9 @@ void refuse_contradicting_sensors(const SessionViews& session,
   }
   if (2 * contradicting >= common && contradicting > 0)
     throw NotUsable(
-        fmt::format("the sensors contradict each other in {} of {} common poses of the board; check that "
+        fmt::format("the sensors contradict each other in {} of {} of the board; check that "
                     "pictures with the same text in their names show the same moment",
-                    contradicting, common));
+                    contradicting, counted(common, "common pose")));
 }
 
 void refuse_contradicting_travel(const SessionViews& session,
@@ -84,10 +85,10 @@ void refuse_contradicting_travel(const SessionViews& session,
   if (travel.all == 0) return;
   const double rms = travel.used > 0 ? std::sqrt(travel.squares_px2 / travel.used) : 0;
   if (rms > kMaxRmsPx || !travel.mostly_used())
-    throw NotUsable(fmt::format(
-        "motion: the fixed board misses its places by {:.1f} px ({} of {} corners fit); check that "
-        "each picture stands in the table with its own position, and that the board is fixed",
-        rms, travel.used, travel.all));
+    throw NotUsable(
+        fmt::format("motion: the fixed board misses its places by {:.1f} px ({} of {} {}); check that "
+                    "each picture stands in the table with its own position, and that the board is fixed",
+                    rms, travel.used, counted(travel.all, "corner"), noun_of(travel.used, "fits", "fit")));
 }
 
 double median_depth_mm(const SessionViews& session, const RigState& state, std::size_t sensor) {
@@ -126,10 +127,11 @@ void refuse_disagreement(const SessionViews& session, const JointAdjustment& adj
   for (const auto& stripes : stripe_agreement(session, adjustment))
     if (2 * stripes.agreeing <= stripes.found)
       throw NotUsable(
-          fmt::format("sensor {}: only {} of {} stripes lie in one plane; check that each laser picture "
+          fmt::format("sensor {}: only {} of {} {} in one plane; check that each laser picture "
                       "shows the pose of "
                       "its board picture, and that the line is the laser's",
-                      stripes.sensor, stripes.agreeing, stripes.found));
+                      stripes.sensor, stripes.agreeing, counted(stripes.found, "stripe"),
+                      noun_of(stripes.agreeing, "lies", "lie")));
   refuse_contradicting_travel(session, counts);
 }
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/counted.h"
 #include "core/robust.h"
 
 namespace lightstripe {
@@ -26,9 +27,9 @@ void refuse_bad_adjustment(const SessionViews& session, const JointAdjustment& a
   constexpr double kMinTiltDeg = 5;  // below it range errors exceed a millimetre at half a metre
   if (!adjustment.converged)
     throw NotUsable(
-        fmt::format("the adjustment did not converge in {} iterations; look for views with a large error and "
+        fmt::format("the adjustment did not converge in {}; look for views with a large error and "
                     "leave them out",
-                    adjustment.iterations));
+                    counted(adjustment.iterations, "iteration")));
   for (std::size_t s = 0; s < quality.size(); ++s) {
     const auto& q = quality[s];
     if (q.board_rms_px > kMaxRmsPx)
@@ -144,8 +145,9 @@ std::vector<std::string> warnings_about(const SessionViews& session, const Joint
   for (const auto& view : views) {
     const int all = view.corners + view.stripe_points + view.left_out;
     if (view.left_out > kMuch * all)
-      warnings.push_back(fmt::format("{}: {} of {} measurements do not fit and were left out", view.image,
-                                     view.left_out, all));
+      warnings.push_back(fmt::format("{}: {} of {} {} left out", view.image, view.left_out,
+                                     counted(all, "measurement"),
+                                     noun_of(view.left_out, "does not fit and was", "do not fit and were")));
   }
   for (std::size_t s = 0; s < session.sensor_names.size(); ++s) {
     const auto& name = session.sensor_names[s];

@@ -11,6 +11,7 @@
 #include <opencv2/features2d.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "core/counted.h"
 #include "core/robust.h"
 
 namespace lightstripe {
@@ -57,8 +58,8 @@ std::string size_seen(const CornerGrid& grid, const Target& target) {
 
 std::string about_grid(const CornerGrid& grid, const cv::Mat& gray, const Target& target) {
   if (same_size(grid, target) && !touches_border(grid, gray))
-    return fmt::format("{} of {} corners are hidden or unclear", target.num_corners() - grid.count(),
-                       target.num_corners());
+    return fmt::format("{} of {} corners {} hidden or unclear", target.num_corners() - grid.count(),
+                       target.num_corners(), noun_of(target.num_corners() - grid.count(), "is", "are"));
   const bool smaller = std::max(grid.columns, grid.rows) <= std::max(target.columns, target.rows) &&
                        std::min(grid.columns, grid.rows) <= std::min(target.columns, target.rows);
   if (smaller && touches_border(grid, gray))
@@ -144,8 +145,8 @@ std::string why_no_circles(const cv::Mat& gray, const Target& target) {
   if (auto reason = about_light(gray); !reason.empty()) return reason;
   if (auto reason = about_focus(gray); !reason.empty()) return reason;
   const int seen = round_blobs(gray);
-  return fmt::format("no grid of {} x {} circles in view ({} round blobs of one size are seen)",
-                     target.columns, target.rows, seen);
+  return fmt::format("no grid of {} x {} circles in view ({} of one size {} seen)", target.columns,
+                     target.rows, counted(seen, "round blob"), noun_of(seen, "is", "are"));
 }
 
 }  // namespace lightstripe

@@ -14,6 +14,7 @@
 #include "calib/board/aruco_dictionary.h"
 #include "calib/board/board_reasons.h"
 #include "calib/observations.h"
+#include "core/counted.h"
 #include "core/error.h"
 
 namespace lightstripe {
@@ -99,9 +100,9 @@ BoardDetection detect_charuco(const cv::Mat& gray, const Target& target) {
   if (!result.found) {
     result.corners.clear();
     result.reason = fmt::format(
-        "{} markers and {} of {} corners in view, {} corners that are not on one line are needed; "
+        "{} and {} of {} corners in view, {} corners that are not on one line are needed; "
         "bring more of the board into view",
-        ids.size(), seen, target.num_corners(), kMinCorners);
+        counted(ids.size(), "marker"), seen, target.num_corners(), kMinCorners);
   }
   return result;
 }

@@ -16,6 +16,7 @@
 #include "calib/board/laser_look.h"
 #include "calib/board/observe_board.h"
 #include "calib/start/stripe_planes.h"
+#include "core/counted.h"
 #include "core/error.h"
 #include "core/random.h"
 #include "core/robust.h"
@@ -170,7 +171,7 @@ void order_lines(std::vector<std::vector<StripePoint>>& lines) {
 std::string why_no_line(const std::vector<Stripe>& stripes, const std::vector<Placed>& points,
                         const BoardMap& map, const Target& target) {
   if (!points.empty())
-    return fmt::format("no straight stripe on the board ({} bright points on it)", points.size());
+    return fmt::format("no straight stripe on the board ({} on it)", counted(points.size(), "bright point"));
   std::size_t anywhere = 0, near = 0;
   for (const auto& stripe : stripes) {
     anywhere += stripe.points.size();
@@ -182,13 +183,13 @@ std::string why_no_line(const std::vector<Stripe>& stripes, const std::vector<Pl
   if (anywhere == 0) return "no light on the board; is the laser on in this picture, and bright enough?";
   if (near >= kMinPoints)
     return fmt::format(
-        "no light on the board: the line runs beside its squares ({} points); hold the board "
+        "no light on the board: the line runs beside its squares ({}); hold the board "
         "into the laser, or give target.rim_mm where a broader rim lies in the board's plane",
-        near);
+        counted(near, "point"));
   return fmt::format(
-      "no light on the board; the picture's line ({} points) is elsewhere: hold the board into "
+      "no light on the board; the picture's line ({}) is elsewhere: hold the board into "
       "the laser",
-      anywhere);
+      counted(anywhere, "point"));
 }
 
 }  // namespace
@@ -207,7 +208,7 @@ StripeOnBoard select_stripes(const std::vector<Stripe>& stripes, const std::vect
   for (int i = 0; i < laser_planes; ++i) {
     const auto chosen = best_line(points);
     if (chosen.empty()) {
-      result.reason = i > 0 ? fmt::format("{} of {} stripes on the board", i, laser_planes)
+      result.reason = i > 0 ? fmt::format("{} of {} on the board", i, counted(laser_planes, "stripe"))
                             : why_no_line(stripes, points, *map, target);
       result.planes.clear();
       return result;
@@ -217,11 +218,9 @@ StripeOnBoard select_stripes(const std::vector<Stripe>& stripes, const std::vect
       if (!near_edge(p.point, p.p_board, map->derivative({p.point.x, p.point.y}), target))
         kept.push_back(p.point);
     if (const auto clear = independent_points(kept).size(); clear < kMinStripePoints)
-      result.reason = fmt::format(
-          "only {} independent points of it lie clear of the squares' edges; larger squares, or a thinner "
-          "line, "
-          "leave more",
-          clear);
+      result.reason =
+          fmt::format("only {} clear of the squares' edges; larger squares, or a thinner line, leave more",
+                      counted(clear, "independent point of it lies", "independent points of it lie"));
     result.planes.push_back(std::move(kept));
   }
   order_lines(result.planes);

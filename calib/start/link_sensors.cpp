@@ -10,6 +10,7 @@
 
 #include "calib/adjust/session_views.h"
 #include "calib/start/initial_values.h"
+#include "core/counted.h"
 
 namespace lightstripe {
 namespace {
@@ -167,9 +168,9 @@ void gather_poses(InitialValues& values) {
   }
   if (contradicting > 0 && 2 * contradicting >= compared)
     throw NotUsable(
-        fmt::format("the sensors contradict each other in {} of {} common poses of the board; check that "
+        fmt::format("the sensors contradict each other in {} of {} of the board; check that "
                     "pictures with the same text in their names show the same moment",
-                    contradicting, compared));
+                    contradicting, counted(compared, "common pose")));
   keep_views(values, keep);
   for (const auto& pose : poses) values.state.first_from_board.push_back(pose.value_or(Rigid3{}));
 }

@@ -8,6 +8,8 @@
 #include <array>
 #include <optional>
 
+#include "core/counted.h"
+
 namespace lightstripe {
 namespace {
 
@@ -128,9 +130,9 @@ void refuse_flipped_pictures(const InitialValues& values, const std::vector<Stri
     }
     if (count < 2 || 2 * count < off.size()) continue;
     throw NotUsable(fmt::format(
-        "{}: {} of {} pictures look {} ({}{}): their stripes lie in the laser plane of the others seen that "
+        "{}: {} of {} look {} ({}{}): their stripes lie in the laser plane of the others seen that "
         "way; give all pictures as the camera took them",
-        name, count, stripes.size(), flip.words, images, count > 3 ? ", ..." : ""));
+        name, count, counted(stripes.size(), "picture"), flip.words, images, count > 3 ? ", ..." : ""));
   }
 }
 

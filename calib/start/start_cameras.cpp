@@ -14,6 +14,7 @@
 #include "calib/start/board_pose.h"
 #include "calib/start/initial_values.h"
 #include "calib/start/refine_views.h"
+#include "core/counted.h"
 
 namespace lightstripe {
 namespace {
@@ -164,9 +165,9 @@ CameraStart calibrate_camera(const std::vector<const SessionView*>& views, const
                              const std::string& sensor, const std::array<int, 2>& size) {
   if (auto start = solve_camera(views, target, size)) return *std::move(start);
   throw NotUsable(
-      fmt::format("sensor {}: no camera explains the {} board views; tilt the board by 20 to 45 degrees to "
+      fmt::format("sensor {}: no camera explains the {}; tilt the board by 20 to 45 degrees to "
                   "different sides and check the number of corners and the pitch",
-                  sensor, views.size()));
+                  sensor, counted(views.size(), "board view")));
 }
 
 /// One view of wrong corners spoils the whole start: the worst is left out while it stands out.

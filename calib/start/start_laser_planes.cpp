@@ -8,6 +8,7 @@
 #include "calib/start/initial_values.h"
 #include "calib/start/pairing_faults.h"
 #include "calib/start/stripe_planes.h"
+#include "core/counted.h"
 
 namespace lightstripe {
 namespace {
@@ -47,8 +48,8 @@ void refuse_minority(const InitialValues& values, const std::vector<StripeInSpac
   const std::string guess = guess_pairing(values, stripes, agreeing);
   if (enough && guess.empty()) return;  // a better explanation is needed to doubt the larger part
   throw NotUsable(fmt::format(
-      "{}: {} of {} stripes lie in one plane; {}", name,
-      agreeing == 0 ? "none" : fmt::format("only {}", agreeing), stripes.size(),
+      "{}: {} of {} {} in one plane; {}", name, agreeing == 0 ? "none" : fmt::format("only {}", agreeing),
+      counted(stripes.size(), "stripe"), noun_of(agreeing, "lies", "lie"),
       guess.empty() ? "check that each laser picture shows the pose of its board picture, and that the line "
                       "is the laser's"
                     : guess));
@@ -80,8 +81,8 @@ Plane start_plane(InitialValues& values, int sensor, std::size_t plane) {
                     name));
   if (stripes.size() < 2)
     throw NotUsable(
-        fmt::format("{}: the stripe was found on {} boards only; at least 2 are needed, better all of them",
-                    name, stripes.size()));
+        fmt::format("{}: the stripe was found on {} only; at least 2 are needed, better all of them", name,
+                    counted(stripes.size(), "board")));
   values.session.stripes_found[static_cast<std::size_t>(sensor)].push_back(static_cast<int>(stripes.size()));
   const auto kept = stripes_in_one_plane(stripes);
   refuse_minority(values, stripes, kept.size(), name);

@@ -10,6 +10,7 @@
 
 #include "calib/adjust/session_views.h"
 #include "calib/start/initial_values.h"
+#include "core/counted.h"
 
 namespace lightstripe {
 namespace {
@@ -130,10 +131,10 @@ void start_motion(InitialValues& values) {
   const bool rotary = values.session.motion == MotionType::kRotary;
   const Track track = follow_board(values);
   if (track.travel.size() < 2)
-    throw NotUsable(fmt::format(
-        "motion: the fixed board was found in {} images; at least 2 positions of travel are needed, "
-        "better 5",
-        track.travel.size()));
+    throw NotUsable(
+        fmt::format("motion: the fixed board was found in {}; at least 2 positions of travel are needed, "
+                    "better 5",
+                    counted(track.travel.size(), "image")));
   if (track.extent() < (rotary ? kMinTurn : kMinTravelMm))
     throw NotUsable(
         fmt::format("motion: all images of the fixed board have the same travel within {:.3g} {}; move the "

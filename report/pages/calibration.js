@@ -8,11 +8,12 @@ const mm = (v, digits = 4) => !(v > 0) ? '-' : v >= 10 ** (1 - digits) ? v.toFix
 // What was left out, in a few words for the header.
 function leftOut() {
   const words = [];
+  const leftOf = (n, all, noun) => `${n} of ${counted(all, noun)} ${n === 1 ? 'was' : 'were'} left out`;
   data.stripes.forEach(s => {
-    if (s.found > s.agreeing) words.push(`${s.found - s.agreeing} of ${s.found} stripes of ${s.name} were left out`);
+    if (s.found > s.agreeing) words.push(`${leftOf(s.found - s.agreeing, s.found, 'stripe')} (${s.name})`);
   });
   const lost = data.rejected.length, all = lost + data.used.length;
-  if (lost) words.push(`${lost} of ${all} pictures were left out, whole or in part`);
+  if (lost) words.push(`${leftOf(lost, all, 'picture')}, whole or in part`);
   return words.join('; ');
 }
 

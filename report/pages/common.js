@@ -6,6 +6,9 @@ const data = JSON.parse(document.getElementById('data').textContent);
 const at = id => document.getElementById(id);
 const colors = ['#2563eb', '#ea580c', '#16a34a', '#9333ea', '#0891b2', '#be123c'];
 
+// '1 frame', '3 frames': as counted() of the program.
+const counted = (count, noun) => `${count} ${noun}${count === 1 ? '' : 's'}`;
+
 function element(tag, text, parent, className) {
   const e = document.createElement(tag);
   if (text !== undefined) e.textContent = text;

@@ -13,7 +13,7 @@ function showHead() {
   at('title').textContent = `${data.object} against ${data.nominal}`;
   const failed = rows.verdict.filter(v => v === 'fail').length, judged = rows.verdict.some(v => v !== '');
   const v = at('verdict');
-  v.textContent = `${data.ok} of ${count} sections measured completely` +
+  v.textContent = `${data.ok} of ${counted(count, 'section')} measured completely` +
     (failed ? `; ${failed} beyond a limit` : judged ? '; none beyond a limit' : '; no limits were given');
   v.classList.add(failed || !data.ok ? 'bad' : judged ? 'good' : 'plain');
   data.warnings.forEach(w => element('div', w, at('warnings'), 'warning'));

@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/counted.h"
 #include "core/error.h"
 #include "io/atomic_file.h"
 #include "io/rig_file.h"
@@ -66,7 +67,7 @@ std::string plain_yaml(std::string text) {
 void set_distortion(Camera& camera, const std::vector<double>& terms, const YamlPlace& place) {
   constexpr std::array<std::size_t, 6> kCounts{0, 4, 5, 8, 12, 14};
   if (std::find(kCounts.begin(), kCounts.end(), terms.size()) == kCounts.end())
-    throw Error(place.file, "has " + std::to_string(terms.size()) + " distortion terms",
+    throw Error(place.file, "has " + counted(terms.size(), "distortion term"),
                 "give 4, 5, 8, 12 or 14 in OpenCV's order");
   std::copy(terms.begin(), terms.end(), camera.distortion.begin());
 }

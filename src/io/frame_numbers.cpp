@@ -9,6 +9,7 @@
 #include <numeric>
 #include <optional>
 
+#include "core/counted.h"
 #include "core/error.h"
 #include "io/name_numbers.h"
 #include "io/number_text.h"
@@ -192,7 +193,8 @@ FrameMap by_order(std::span<const FrameSource* const> sources, const std::string
   for (const FrameSource* source : sources) {
     if (source == nullptr) continue;
     if (map.end != 0 && source->size() != map.end)
-      throw Error(subject, fmt::format("one sensor has {} frames, another {}", map.end, source->size()),
+      throw Error(subject,
+                  fmt::format("one sensor has {}, another {}", counted(map.end, "frame"), source->size()),
                   "give every sensor the same frames, so that the n-th of each belong together, or number "
                   "the files through");
     map.end = source->size();

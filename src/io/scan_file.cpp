@@ -74,7 +74,7 @@ void set_travel(Scan& scan, const TravelFields& travel) {
 Backgrounds checked_backgrounds(const Backgrounds& backgrounds, const Scan& scan, const std::string& file) {
   for (const auto& [sensor, pattern] : backgrounds.of_sensor) {
     const bool known = std::any_of(scan.frames.begin(), scan.frames.end(),
-                                   [&](const auto& frames) { return frames.first == sensor; });
+                                   [&name = sensor](const auto& frames) { return frames.first == name; });
     if (!sensor.empty() && !known)
       throw Error(fmt::format("{}: background.{}", file, sensor), "names no sensor of frames",
                   "use a name from frames");

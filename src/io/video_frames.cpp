@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/counted.h"
 #include "core/error.h"
 #include "io/choose_channel.h"
 #include "io/grey_channel.h"
@@ -43,8 +44,8 @@ class VideoFrames : public FrameSource {
     constexpr std::array<std::string_view, 4> kCounted{".avi", ".mp4", ".mov", ".m4v"};
     const bool counted = std::ranges::find(kCounted, path_.extension().string()) != kCounted.end();
     if (stated_ <= size_ + (counted ? 0 : std::max<std::int64_t>(2, size_ / 50))) return {};
-    return fmt::format("holds {} frames that can be read, its header says {}: it is cut short or damaged",
-                       size_, stated_);
+    return fmt::format("holds {} that can be read, its header says {}: it is cut short or damaged",
+                       lightstripe::counted(size_, "frame"), stated_);
   }
 
   GreyImage read(std::int64_t index) const override {

@@ -278,7 +278,7 @@ TEST_F(ThreeLines, AloneTheFootIsNotCalledNoStripe) {
   write_scan(plate(0, kFoot_mm, 60, 260));
   const auto result = reconstruct();
   EXPECT_EQ(result.exit_code, 3) << result.out;
-  EXPECT_THAT(result.err, HasSubstr("lines were seen in 1 frames"));
+  EXPECT_THAT(result.err, HasSubstr("lines were seen in 1 frame"));
   EXPECT_THAT(result.err, HasSubstr("may lie outside its depth_range"));
 }
 

@@ -139,5 +139,18 @@ TEST(Artefact, WhatIsNotThereIsSaid) {
   EXPECT_EQ(why_not, "only 0 points were measured");
 }
 
+// A rounded edge is no ball, and two of many faces are no step.
+TEST(Artefact, WhatLooksLikeItByChanceIsNotIt) {
+  Scan scan;
+  scan.take(50, [](double x, double y) { return -30 + 14 * std::exp(-std::abs(y - 3) / 9) + 0.004 * x * x; });
+  std::string why_not;
+  EXPECT_FALSE(measure_artefact(scan.points, scan.groups, {Artefact::kSphere, 25.4}, why_not));
+  EXPECT_EQ(why_not.find("no sphere of"), 0u) << why_not;
+  Scan blocks;
+  blocks.take(40, block);
+  EXPECT_FALSE(measure_artefact(blocks.points, blocks.groups, {Artefact::kStep, 15}, why_not));
+  EXPECT_EQ(why_not, "no two parallel faces about 15 mm apart are in the points");
+}
+
 }  // namespace
 }  // namespace lightstripe

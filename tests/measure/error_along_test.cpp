@@ -26,7 +26,7 @@ TEST(ErrorAlong, IsTakenApartIntoItsOwnAndTheSharedPart) {
   const ErrorAlong error = error_along(chain.section, chain.points);
   EXPECT_NEAR(error.own_mm, 0.01, 0.003);
   EXPECT_NEAR(error.shared_mm, 0.02, 0.003);
-  EXPECT_EQ(error.length_mm, 2);
+  EXPECT_NEAR(error.length_mm, 2, 0.05);  // the pose's share lengthens it
 }
 
 TEST(ErrorAlong, OfIndependentNoiseSharesNothing) {

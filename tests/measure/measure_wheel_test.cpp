@@ -154,7 +154,9 @@ TEST_F(MeasureWheel, SigmasAreWhatTheQuantitiesScatterByAlsoOnBentStripes) {
   for (const SectionRecipe& recipe :
        {SectionRecipe{.spacing_mm = 0.25, .noise_mm = 0.02},
         SectionRecipe{.spacing_mm = 0.15, .noise_mm = 0.01, .bend_mm = 0.02, .bend_length_mm = 0.7},
-        SectionRecipe{.spacing_mm = 0.15, .noise_mm = 0.01, .bend_mm = 0.02, .bend_length_mm = 3}}) {
+        SectionRecipe{.spacing_mm = 0.15, .noise_mm = 0.01, .bend_mm = 0.02, .bend_length_mm = 3},
+        SectionRecipe{.spacing_mm = 0.15, .noise_mm = 0.01, .bend_mm = 0.02, .bend_length_mm = 6},
+        SectionRecipe{.spacing_mm = 0.15, .noise_mm = 0.01, .bend_mm = 0.02, .bend_length_mm = 12}}) {
     const auto ratios = scatter_over_sigma(
         [&](std::uint64_t seed) {
           SectionRecipe one = recipe;
