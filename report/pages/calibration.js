@@ -5,10 +5,12 @@ const signed = v => (Math.round(1000 * v) / 1000 || 0).toFixed(3);  // no -0.000
 // At least two digits that count: 0.0000 would be a promise.
 const mm = (v, digits = 4) => !(v > 0) ? '-' : v >= 10 ** (1 - digits) ? v.toFixed(digits) : v.toPrecision(2);
 
+const were = count => count === 1 ? 'was' : 'were';
+
 // What was left out, in a few words for the header.
 function leftOut() {
   const words = [];
-  const leftOf = (n, all, noun) => `${n} of ${counted(all, noun)} ${n === 1 ? 'was' : 'were'} left out`;
+  const leftOf = (n, all, noun) => `${n} of ${counted(all, noun)} ${were(n)} left out`;
   data.stripes.forEach(s => {
     if (s.found > s.agreeing) words.push(`${leftOf(s.found - s.agreeing, s.found, 'stripe')} (${s.name})`);
   });
