@@ -220,7 +220,8 @@ void add_measure_command(CLI::App& app, Command& run) {
   add_choice<SectionFormat>(*command, "--export-format", arguments->job.export_format,
                             {{"miniprof", SectionFormat::kMiniProf}, {"simpack", SectionFormat::kSimpack}},
                             "miniprof or simpack [miniprof]");
-  command->add_option("--rig", arguments->job.rig, "rig file, for the diameter's predicted error");
+  command->add_option("--rig", arguments->job.rig,
+                      "rig file: what its calibration errs by counts in the predicted errors");
   add_common_options(*command, arguments->common,
                      "table of measurements, .csv or .xlsx (default: measurements.csv)");
   add_field_options<RailOptions>(*command, "", arguments->rail);
