@@ -141,7 +141,7 @@ int run_features(const MeasureArguments& arguments) {
     throw Error("--features", "is missing",
                 "name the file that says what to measure; see configs/features.yaml");
   FeaturesJob job;
-  job.profiles = arguments.job.profiles, job.features = arguments.features;
+  job.profiles = arguments.job.profiles, job.features = arguments.features, job.rig = arguments.job.rig;
   if (!arguments.common.output.empty()) job.table = arguments.common.output;
   job.threads = arguments.common.threads;
   job.other_outputs = {arguments.report};

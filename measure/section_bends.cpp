@@ -2,25 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "measure/section_bends.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace lightstripe {
-namespace {
-
-/// `of` names the list of a row in which the estimate stands at `index`.
-void add_bends(const std::vector<MeasuredFrame>& bent_rows, std::vector<NamedEstimate> MeasuredFrame::*of,
-               std::size_t index, Estimate& estimate) {
-  if (!estimate.value || !estimate.sigma) return;
-  double squares = *estimate.sigma * *estimate.sigma;
-  for (const MeasuredFrame& bent : bent_rows)
-    if (index < (bent.*of).size())
-      if (const auto& value = (bent.*of)[index].estimate.value)
-        squares += (*value - *estimate.value) * (*value - *estimate.value);
-  estimate.sigma = std::sqrt(squares);
-}
-
-}  // namespace
-
 Profile bent(const Profile& profile, const SectionBends& bends, std::size_t bend) {
   Profile out = profile;
   for (ProfilePoint& p : out.points) {
@@ -30,9 +15,16 @@ Profile bent(const Profile& profile, const SectionBends& bends, std::size_t bend
   return out;
 }
 
+void add_bend(const Estimate& bent, Estimate& estimate) {
+  if (!estimate.value || !estimate.sigma || !bent.value) return;
+  estimate.sigma = std::hypot(*estimate.sigma, *bent.value - *estimate.value);
+}
+
 void add_bends(const std::vector<MeasuredFrame>& bent_rows, MeasuredFrame& row) {
-  for (auto of : {&MeasuredFrame::estimates, &MeasuredFrame::extras})
-    for (std::size_t i = 0; i < (row.*of).size(); ++i) add_bends(bent_rows, of, i, (row.*of)[i].estimate);
+  for (const MeasuredFrame& bent : bent_rows)
+    for (auto of : {&MeasuredFrame::estimates, &MeasuredFrame::extras})
+      for (std::size_t i = 0; i < std::min((row.*of).size(), (bent.*of).size()); ++i)
+        add_bend((bent.*of)[i].estimate, (row.*of)[i].estimate);
 }
 
 }  // namespace lightstripe

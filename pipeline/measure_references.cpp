@@ -75,7 +75,8 @@ MeasureReferences::MeasureReferences(const ReferenceChoice& choice, const Measur
     const RigQuality quality = read_rig(rig_file).quality;
     if (choice.two_rails && quality.section_absolute_sigma_mm > 0)
       rig_sigma_mm_ = quality.section_absolute_sigma_mm;
-    bends_ = quality.section_bends.value_or(SectionBends{});
+    // A track's gauge and conicity take the rig's error as rig_sigma_mm_.
+    if (!choice.two_rails) bends_ = quality.section_bends.value_or(SectionBends{});
   }
   if (!choice.baseline.empty()) baseline_ = read_baseline(choice.baseline, nominal_, options);
 }
