@@ -18,9 +18,10 @@ std::string why_empty(const ReconstructResult& result) {
     return "none of the frames has a position (nothing is written); number the travel table's frames as the "
            "pictures, or from 0 in their order";
   if (summary.rays_missed > 0) return why_all_missed(summary, result.outside_range);
-  std::string text = fmt::format(
-      "no stripe was found in {} (nothing is written); ",
-      summary.frames == 1 ? "the only frame" : fmt::format("any of the {} frames", summary.frames));
+  std::string text = summary.frames == 1
+                         ? "no stripe was found in the only frame"
+                         : fmt::format("no stripe was found in any of the {} frames", summary.frames);
+  text += " (nothing is written); ";
   constexpr int kDark = 60;
   if (result.brightest < kDark)
     text +=

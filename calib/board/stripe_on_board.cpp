@@ -218,9 +218,9 @@ StripeOnBoard select_stripes(const std::vector<Stripe>& stripes, const std::vect
       if (!near_edge(p.point, p.p_board, map->derivative({p.point.x, p.point.y}), target))
         kept.push_back(p.point);
     if (const auto clear = independent_points(kept).size(); clear < kMinStripePoints)
-      result.reason =
-          fmt::format("only {} clear of the squares' edges; larger squares, or a thinner line, leave more",
-                      counted(clear, "independent point of it lies", "independent points of it lie"));
+      result.reason = fmt::format(
+          "only {} of the squares' edges; larger squares, or a thinner line, leave more",
+          counted(clear, "independent point of it lies clear", "independent points of it lie clear"));
     result.planes.push_back(std::move(kept));
   }
   order_lines(result.planes);

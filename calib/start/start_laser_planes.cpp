@@ -48,8 +48,8 @@ void refuse_minority(const InitialValues& values, const std::vector<StripeInSpac
   const std::string guess = guess_pairing(values, stripes, agreeing);
   if (enough && guess.empty()) return;  // a better explanation is needed to doubt the larger part
   throw NotUsable(fmt::format(
-      "{}: {} of {} {} in one plane; {}", name, agreeing == 0 ? "none" : fmt::format("only {}", agreeing),
-      counted(stripes.size(), "stripe"), noun_of(agreeing, "lies", "lie"),
+      "{}: {} of {} {}; {}", name, agreeing == 0 ? "none" : fmt::format("only {}", agreeing), stripes.size(),
+      noun_of(agreeing, "stripes lies in one plane", "stripes lie in one plane"),
       guess.empty() ? "check that each laser picture shows the pose of its board picture, and that the line "
                       "is the laser's"
                     : guess));
