@@ -91,7 +91,7 @@ int run_features(const MeasureArguments& arguments) {
     throw Error("--features", "is missing",
                 "name the file that says what to measure; see configs/features.yaml");
   FeaturesJob job;
-  job.profiles = arguments.job.profiles, job.features = arguments.features;
+  job.profiles = arguments.job.profiles, job.features = arguments.features, job.rig = arguments.job.rig;
   if (!arguments.common.output.empty()) job.table = arguments.common.output;
   job.threads = arguments.common.threads;
   job.other_outputs = {arguments.report};
@@ -170,7 +170,8 @@ void add_measure_command(CLI::App& app, Command& run) {
   add_choice<SectionFormat>(*command, "--export-format", arguments->job.export_format,
                             {{"miniprof", SectionFormat::kMiniProf}, {"simpack", SectionFormat::kSimpack}},
                             "miniprof or simpack [miniprof]");
-  command->add_option("--rig", arguments->job.rig, "rig file, for the diameter's predicted error");
+  command->add_option("--rig", arguments->job.rig,
+                      "rig file: what its calibration errs by counts in the predicted errors");
   add_common_options(*command, arguments->common,
                      "table of measurements, .csv or .xlsx (default: measurements.csv)");
   add_field_options<RailOptions>(*command, "", arguments->rail);

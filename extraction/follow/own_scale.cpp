@@ -45,12 +45,14 @@ class LineFinder {
   std::optional<Followed> follow(std::size_t group, int x, int y);
   void to_full_image(ScaleGroup& group);
   void take_back(const Followed& line);
+  void lift(const Followed& line);
+  Followed put_back(Followed line);
   void block(const Followed& line, double sigmas, int finest_level);
   std::uint8_t& blocked(int x, int y) {
     const auto columns = static_cast<std::size_t>(search_.image.width / 4 + 1);
     return w_.blocked[static_cast<std::size_t>(y / 4) * columns + static_cast<std::size_t>(x / 4)];
   }
-  std::optional<Followed> at_own_scale(const Followed& line, int x, int y);
+  Followed at_own_scale(const Followed& line);
   double broader_in_grain(const Followed& line, double width_scale);
   bool is_clipped(std::span<const StripePoint> points) const;
   double length(const Followed& line) const { return static_cast<double>(line.range.size()); }
@@ -168,6 +170,27 @@ void LineFinder<T>::take_back(const Followed& line) {
   following_.mask.relabel(line.checkpoint, line.first_label, labels_.current, ExclusionMask::kFree);
 }
 
+/// The same, as long as the line may still come back.
+template <class T>
+void LineFinder<T>::lift(const Followed& line) {
+  LineSet& lines = groups_.all[line.group].lines;
+  w_.lifted_points.assign(lines.points.begin() + static_cast<std::ptrdiff_t>(line.range.begin),
+                          lines.points.end());
+  lines.lines.pop_back();
+  lines.points.resize(line.range.begin);
+  following_.mask.lift(line.checkpoint, line.first_label, labels_.current, w_.lifted_marks);
+}
+
+/// The line that was lifted stands as it did.
+template <class T>
+typename LineFinder<T>::Followed LineFinder<T>::put_back(Followed line) {
+  LineSet& lines = groups_.all[line.group].lines;
+  lines.points.insert(lines.points.end(), w_.lifted_points.begin(), w_.lifted_points.end());
+  lines.lines.push_back(line.range);
+  following_.mask.put_back(w_.lifted_marks);
+  return line;
+}
+
 /// A good part of the points lies on the picture's brightest pixels.
 template <class T>
 bool LineFinder<T>::is_clipped(std::span<const StripePoint> points) const {
@@ -199,8 +222,7 @@ double LineFinder<T>::broader_in_grain(const Followed& line, double width_scale)
 /// The line followed again at its own scale, where that differs and does not
 /// lose much of it.
 template <class T>
-std::optional<typename LineFinder<T>::Followed> LineFinder<T>::at_own_scale(const Followed& line, int x,
-                                                                            int y) {
+typename LineFinder<T>::Followed LineFinder<T>::at_own_scale(const Followed& line) {
   const LineSet& lines = groups_.all[line.group].lines;
   const std::span<const StripePoint> points(lines.points.data() + line.range.begin, line.range.size());
   const double used = groups_.all[line.group].kernels->sigma;
@@ -217,15 +239,15 @@ std::optional<typename LineFinder<T>::Followed> LineFinder<T>::at_own_scale(cons
   const bool much_finer = std::log2(used / own) > search_.tuning.much_finer_scale;
   const double least =
       (much_finer ? search_.tuning.kept_length_of_finer : search_.tuning.kept_length) * length(line);
-  take_back(line);
+  lift(line);
   const std::size_t group = group_for(own, 0.5 * tolerance);
   for (const StripePoint& p : places) {
     const auto again = follow(group, nearest_pixel(p.x), nearest_pixel(p.y));
-    if (again && length(*again) >= least) return again;
+    if (again && length(*again) >= least) return *again;
     if (again) take_back(*again);
     if (again || broader <= 1 || length(line) < search_.tuning.worth_other_places * own) break;
   }
-  return follow(line.group, x, y);
+  return put_back(line);
 }
 
 template <class T>
@@ -336,9 +358,8 @@ void LineFinder<T>::try_seed(const ScaleSeed& seed) {
     w_.patience.add_futile(search_.tuning.futile_seed);
     return;
   }
-  auto line = follow(group_for(ridge->sigma, search_.tuning.shared_scale), seed.x, seed.y);
-  if (line) line = at_own_scale(*line, seed.x, seed.y);
-  if (line) keep_or_reject(*line, seed.level);
+  const auto line = follow(group_for(ridge->sigma, search_.tuning.shared_scale), seed.x, seed.y);
+  if (line) keep_or_reject(at_own_scale(*line), seed.level);
 }
 
 /// Tries the seeds in their order, as long as there is hope.
