@@ -43,6 +43,8 @@ Messages describe_measurement(const MeasureJob& job, const MeasureResult& result
         "the diameter's sigma is twice that of the axis' place in the rig's calibration: a board seen over a "
         "few degrees fixes an "
         "axis half a metre away only to a millimetre; it is common to all frames");
+  if (job.rig.empty() && job.profiles.extension() == ".csv")
+    out.say("the sigmas do not count the calibration's error: give --rig rig.yaml");
   std::map<std::string, int> reasons;
   for (const MeasuredFrame& row : result.rows)
     if (row.status != "ok") ++reasons[row.status];
