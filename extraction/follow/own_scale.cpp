@@ -40,6 +40,7 @@ class LineFinder {
   };
 
   void prepare();
+  void begin();
   std::uint8_t& tried(int level, int x, int y);
   std::size_t group_for(double sigma, double tolerance);
   std::optional<Followed> follow(std::size_t group, int x, int y);
@@ -50,8 +51,9 @@ class LineFinder {
     const auto columns = static_cast<std::size_t>(search_.image.width / 4 + 1);
     return w_.blocked[static_cast<std::size_t>(y / 4) * columns + static_cast<std::size_t>(x / 4)];
   }
-  std::optional<Followed> at_own_scale(const Followed& line, int x, int y);
-  double broader_in_grain(const Followed& line, double width_scale);
+  std::optional<Followed> at_own_scale(const Followed& line, int x, int y, double least_broader);
+  double grain_of(const Followed& line, double width_scale);
+  void allow_for_grain(std::size_t group, double weight, double grain, double broader);
   bool is_clipped(std::span<const StripePoint> points) const;
   double length(const Followed& line) const { return static_cast<double>(line.range.size()); }
   std::span<const StripePoint> points_of(const Followed& line) const {
@@ -62,8 +64,10 @@ class LineFinder {
                            length(line) / groups_.all[line.group].kernels->sigma);
   }
   double height(const Followed& line) const;
+  double weight(const Followed& line) const { return length(line) * height(line); }
   bool runs_beside_another(const Followed& line) const;
   bool is_edge(const Followed& line) const;
+  void note_grain(const Followed& line);
   void keep_or_reject(const Followed& line, int seed_level);
   bool is_untried(const ScaleSeed& seed);
   void try_seed(const ScaleSeed& seed);
@@ -79,6 +83,8 @@ class LineFinder {
   MaskLabels labels_;
   double strongest_ = 0;  ///< grey levels, height of the strongest line so far
   int lines_ = 0;
+  double heaviest_ = 0;  ///< px times grey levels: the largest length times height of a line so far
+  double grained_sigma_ = 0, grain_ = 0;  ///< of the kernels of a grained line; 0: none yet
 };
 
 template <class T>
@@ -92,17 +98,27 @@ void LineFinder<T>::prepare() {
   for (int level = 0; level < w_.pyramid.count; ++level) {
     if (search_.windowed == nullptr || level <= search_.windowed->coarsest)
       collect_scale_seeds(w_.pyramid, level, {search_.brightest, windows}, following_.seeds, w_.found);
+  }
+  sort_by_contrast(w_.found, w_.seeds);
+}
+
+/// Nothing is tried yet.
+template <class T>
+void LineFinder<T>::begin() {
+  for (int level = 0; level < w_.pyramid.count; ++level) {
     const ImageView<T> image = w_.pyramid.levels[static_cast<std::size_t>(level)];
     w_.tried[static_cast<std::size_t>(level)].assign(
         static_cast<std::size_t>(image.width / 4 + 1) * static_cast<std::size_t>(image.height / 4 + 1), 0);
   }
-  sort_by_contrast(w_.found, w_.seeds);
   w_.blocked.assign(static_cast<std::size_t>(search_.image.width / 4 + 1) *
                         static_cast<std::size_t>(search_.image.height / 4 + 1),
                     0);
   following_.mask.reset(search_.image.width, search_.image.height, 1);
   w_.patience.reset(search_.image.width, search_.image.height, search_.tuning);
   groups_.count = 0;
+  labels_ = {};
+  strongest_ = heaviest_ = 0;
+  lines_ = 0;
 }
 
 /// The cell of 4 x 4 pixels of a level.
@@ -180,45 +196,68 @@ bool LineFinder<T>::is_clipped(std::span<const StripePoint> points) const {
   return 4 * clipped > points.size();
 }
 
-/// Times the scale that the width asks for. A kernel of the stripe's own width is best in the camera's noise,
-/// which it takes in from beside the stripe; the grain of speckle is in the stripe's own light, and the more
-/// of it a kernel averages the better.
+/// How much a line's strength varies by the grain of its light, as a share of it. `width_scale`: the scale
+/// that the stripe's width asks for.
 template <class T>
-double LineFinder<T>::broader_in_grain(const Followed& line, double width_scale) {
+double LineFinder<T>::grain_of(const Followed& line, double width_scale) {
   const ScaleGroup& g = groups_.all[line.group];
   const std::span<const StripePoint> points(g.lines.points.data() + line.range.begin, line.range.size());
   const double bin = 1 << g.level, noise = w_.pyramid.noise[static_cast<std::size_t>(g.level)] *
                                            g.binned_kernels->curvature_gain / (bin * bin);
-  const FollowTuning& t = search_.tuning;
   // The strength of a clipped bar varies with its outline, that of a thin line with its place between pixels.
-  if (width_scale < t.thinnest_grained || is_clipped(points)) return 1;
-  const double grain = grain_of_line(points, g.kernels->sigma, noise, w_.values);
+  if (width_scale < search_.tuning.thinnest_grained || is_clipped(points)) return 0;
+  return grain_of_line(points, g.kernels->sigma, noise, w_.values);
+}
+
+/// A kernel of the stripe's own width is best in the camera's noise, which it takes in from beside the
+/// stripe; the grain of speckle is in the stripe's own light, and the more of it a kernel averages the
+/// better. Returns times the scale that the width asks for.
+double broader_in_grain(double grain, const FollowTuning& t) {
   return std::clamp(1 + (grain - t.fine_grain) / (t.coarse_grain - t.fine_grain), 1.0, 2.0);
+}
+
+/// Where the picture's main line is coarsely grained, so much is allowed to its kernels: the grain varies the
+/// curvature along a line as much as that across it.
+template <class T>
+void LineFinder<T>::allow_for_grain(std::size_t group, double weight, double grain, double broader) {
+  const FollowTuning& t = search_.tuning;
+  if (grain < t.main_grain || weight < t.main_line * heaviest_) return;
+  RidgeLimits& limits = groups_.all[group].limits;
+  limits.grain = std::max(limits.grain, grain / std::pow(broader, t.grain_falls));
 }
 
 /// The line followed again at its own scale, where that differs and does not
 /// lose much of it.
 template <class T>
 std::optional<typename LineFinder<T>::Followed> LineFinder<T>::at_own_scale(const Followed& line, int x,
-                                                                            int y) {
+                                                                            int y, double least_broader) {
   const LineSet& lines = groups_.all[line.group].lines;
   const std::span<const StripePoint> points(lines.points.data() + line.range.begin, line.range.size());
   const double used = groups_.all[line.group].kernels->sigma;
   const double farthest = std::exp2(search_.tuning.farthest_scale);
   const double width_scale = scale_of_line(w_.pyramid, kernels_, points, used);
-  const double broader = broader_in_grain(line, width_scale);
+  const double seen = grain_of(line, width_scale);
+  const double grain =
+      seen * std::pow(used / width_scale, search_.tuning.grain_falls);  // at the width's scale
+  const double broader = broader_in_grain(grained_sigma_ > 0 ? grain : seen, search_.tuning);
+  if (broader < least_broader) return line;
   const double own = std::clamp(broader * width_scale, used / farthest, used * farthest);
   const bool first_of_its_scale = lines.lines.size() == 1;
   const double tolerance = first_of_its_scale ? search_.tuning.first_scale : search_.tuning.refollow_scale;
-  if (std::abs(std::log2(own / used)) <= tolerance) return line;
+  if (std::abs(std::log2(own / used)) <= tolerance) {
+    allow_for_grain(line.group, weight(line), grain, broader);
+    return line;
+  }
   // Where a dark grain hides the line from the broader kernels, another place shows it.
   const std::array<StripePoint, 3> places{points[points.size() / 2], points[points.size() / 4],
                                           points[3 * points.size() / 4]};
   const bool much_finer = std::log2(used / own) > search_.tuning.much_finer_scale;
   const double least =
       (much_finer ? search_.tuning.kept_length_of_finer : search_.tuning.kept_length) * length(line);
+  const double weight_before = weight(line);
   take_back(line);
   const std::size_t group = group_for(own, 0.5 * tolerance);
+  allow_for_grain(group, weight_before, grain, broader);
   for (const StripePoint& p : places) {
     const auto again = follow(group, nearest_pixel(p.x), nearest_pixel(p.y));
     if (again && length(*again) >= least) return again;
@@ -284,11 +323,24 @@ bool LineFinder<T>::runs_beside_another(const Followed& line) const {
   return static_cast<double>(taken) > search_.tuning.most_taken * static_cast<double>(looked_at);
 }
 
+/// A grained line that outweighs those before it by far: they may have been grains of it.
+template <class T>
+void LineFinder<T>::note_grain(const Followed& line) {
+  const ScaleGroup& g = groups_.all[line.group];
+  const double weight = this->weight(line);
+  if (grained_sigma_ == 0 && g.limits.grain > 0 && weight > search_.tuning.main_line * heaviest_) {
+    grained_sigma_ = g.kernels->sigma;
+    grain_ = g.limits.grain;
+  }
+  heaviest_ = std::max(heaviest_, weight);
+}
+
 template <class T>
 void LineFinder<T>::keep_or_reject(const Followed& line, int seed_level) {
   const double least = search_.least_widths * full_width_of(groups_.all[line.group].kernels->sigma);
   if (length(line) >= search_.tuning.least_length * least && !runs_beside_another(line)) {
     ++lines_;
+    note_grain(line);
     // An edge or a crumb: the filter of whole lines drops nearly all of them.
     if (is_edge(line) || length(line) < least)
       add_futile(line);
@@ -336,8 +388,16 @@ void LineFinder<T>::try_seed(const ScaleSeed& seed) {
     w_.patience.add_futile(search_.tuning.futile_seed);
     return;
   }
-  auto line = follow(group_for(ridge->sigma, search_.tuning.shared_scale), seed.x, seed.y);
-  if (line) line = at_own_scale(*line, seed.x, seed.y);
+  std::optional<Followed> line;
+  // What stands out may be a single grain, which has a scale of its own.
+  if (grained_sigma_ > ridge->sigma) line = follow(group_for(grained_sigma_, 0.01), seed.x, seed.y);
+  if (!line) line = follow(group_for(ridge->sigma, search_.tuning.shared_scale), seed.x, seed.y);
+  if (line) {
+    const double before = length(*line);
+    line = at_own_scale(*line, seed.x, seed.y, 1);
+    // Only a line that has grown tells its grain.
+    if (line && length(*line) > 2 * before) line = at_own_scale(*line, seed.x, seed.y, 2);
+  }
   if (line) keep_or_reject(*line, seed.level);
 }
 
@@ -355,7 +415,15 @@ void LineFinder<T>::try_seeds(bool beside_ends) {
 template <class T>
 void LineFinder<T>::run() {
   prepare();
+  begin();
   try_seeds(false);
+  if (grained_sigma_ > 0) {
+    const double grain = grain_;
+    begin();
+    const std::size_t group = group_for(grained_sigma_, 0.01);
+    groups_.all[group].limits.grain = grain;
+    try_seeds(false);
+  }
   if (!w_.patience.is_over()) return;
   w_.patience.look_beside_ends();
   // What is found has ends of its own.
