@@ -146,7 +146,8 @@ int run_features(const MeasureArguments& arguments) {
   job.threads = arguments.common.threads;
   job.other_outputs = {arguments.report};
   const FeaturesResult result = measure_features_job(job);
-  if (!job.table.empty()) apply_table_style(job.table, arguments.style);
+  for (const std::filesystem::path& table : {job.table, result.along_table})
+    if (!table.empty()) apply_table_style(table, arguments.style);
   if (!arguments.report.empty()) write_file(arguments.report, features_report_html(job, result));
   for (std::size_t i = 0; i < result.along.size(); ++i) {
     const Estimate& estimate = result.along[i];

@@ -66,13 +66,15 @@ bool has_noise(const Profiles& wheels, const Profiles& rails, const ConicityOpti
   return sum > 0;
 }
 
-/// Root mean square of the repeats about the result, at each amplitude; nothing where fewer than three in
-/// four repeats reach it.
+/// Root mean square of the repeats about the result, at each amplitude: how they scatter, and how far their
+/// mean lies off, which is what smoothing does to bends. Nothing where fewer than three in four repeats reach
+/// it.
 std::vector<std::optional<double>> spread_of_repeats(const Profiles& wheels, const Profiles& rails,
                                                      const ConicityOptions& options,
-                                                     const std::vector<double>& at) {
+                                                     const std::vector<double>& at,
+                                                     const std::vector<std::optional<double>>& values) {
   constexpr double kCoarseMm = 0.25;  // search of the nearest place: the smoothed noise has no shorter waves
-  std::vector<double> sum(at.size(), 0.0), squares(at.size(), 0.0);
+  std::vector<double> squares(at.size(), 0.0);
   std::vector<int> count(at.size(), 0);
   // One file on both sides is one measurement and its mirror image: both err alike.
   const bool same_wheel = wheels[0].name == wheels[1].name, same_rail = rails[0].name == rails[1].name;
@@ -92,12 +94,11 @@ std::vector<std::optional<double>> spread_of_repeats(const Profiles& wheels, con
     const auto drawn =
         conicities(difference_of(walk_wheelset(track, contact), radius_difference(wheels, options)), at);
     for (std::size_t i = 0; i < at.size(); ++i)
-      if (drawn[i]) sum[i] += *drawn[i], squares[i] += *drawn[i] * *drawn[i], ++count[i];
+      if (drawn[i] && values[i]) squares[i] += std::pow(*drawn[i] - *values[i], 2), ++count[i];
   }
   std::vector<std::optional<double>> out(at.size());
   for (std::size_t i = 0; i < at.size(); ++i)
-    if (count[i] > 1 && 4 * count[i] >= 3 * options.draws)
-      out[i] = std::sqrt(std::max(0.0, (squares[i] - sum[i] * sum[i] / count[i]) / (count[i] - 1)));
+    if (count[i] > 1 && 4 * count[i] >= 3 * options.draws) out[i] = std::sqrt(squares[i] / count[i]);
   return out;
 }
 
@@ -147,7 +148,7 @@ Conicity equivalent_conicity(const Profiles& wheels, const Profiles& rails, cons
   const std::vector<double> at = amplitudes(options);
   const auto values = conicities(difference, at);
   const auto sigmas = has_noise(wheels, rails, options) && options.draws > 1
-                          ? spread_of_repeats(wheels, rails, options, at)
+                          ? spread_of_repeats(wheels, rails, options, at, values)
                           : std::vector<std::optional<double>>(at.size(), 0.0);
   for (std::size_t i = 0; i < at.size() && at[i] <= difference.last_mm() + 1e-9; ++i)
     out.rows.push_back({at[i], difference.at(at[i]), values[i], values[i] ? sigmas[i] : std::nullopt});

@@ -87,7 +87,10 @@ FeaturesResult measure_features_job(const FeaturesJob& job) {
                                ? 1
                                : 0;
   write_file(job.table, features_table(result));
-  if (!result.along.empty()) write_file(along_file(job.table), along_table(result));
+  if (!result.along.empty()) {
+    result.along_table = along_file(job.table);
+    write_file(result.along_table, along_table(result));
+  }
   return result;
 }
 

@@ -23,7 +23,8 @@ struct FeaturesResult {
   std::vector<Profile> profiles;
   std::vector<MeasuredFeatures> rows;
   std::vector<Estimate> along;
-  int num_complete = 0;  ///< rows without an empty cell
+  std::filesystem::path along_table;  ///< where `along` was written; empty: nowhere
+  int num_complete = 0;               ///< rows without an empty cell
 };
 
 /// Reads, measures and writes the table, and `<table>_along.csv` where the file asks for that.

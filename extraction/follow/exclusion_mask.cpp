@@ -71,4 +71,23 @@ void ExclusionMask::relabel(std::size_t from_checkpoint, std::uint16_t first, st
   }
 }
 
+void ExclusionMask::lift(std::size_t from_checkpoint, std::uint16_t first, std::uint16_t last,
+                         std::vector<Mark>& lifted) {
+  last_label_ = kFree;
+  lifted.clear();
+  for (std::size_t r = from_checkpoint; r < runs_.size(); ++r) {
+    const Run& run = runs_[r];
+    for (std::uint32_t i = 0; i < run.count; ++i) {
+      const std::uint32_t at = run.first + i * run.step;
+      if (labels_[at] < first || labels_[at] > last) continue;
+      lifted.push_back({at, labels_[at]});
+      labels_[at] = kFree;
+    }
+  }
+}
+
+void ExclusionMask::put_back(const std::vector<Mark>& lifted) {
+  for (const Mark& mark : lifted) labels_[mark.cell] = mark.label;
+}
+
 }  // namespace lightstripe

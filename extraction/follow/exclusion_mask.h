@@ -31,6 +31,16 @@ class ExclusionMask {
   std::size_t checkpoint() const { return runs_.size(); }
   void relabel(std::size_t from_checkpoint, std::uint16_t first, std::uint16_t last, std::uint16_t to);
 
+  /// A cell and what was written there.
+  struct Mark {
+    std::uint32_t cell = 0;
+    std::uint16_t label = kFree;
+  };
+  /// As relabel() to kFree, and tells what was there, so that put_back() can undo it.
+  void lift(std::size_t from_checkpoint, std::uint16_t first, std::uint16_t last, std::vector<Mark>& lifted);
+  /// What other lines marked since then has to be free again.
+  void put_back(const std::vector<Mark>& lifted);
+
  private:
   struct Run {
     std::uint32_t first, count, step;

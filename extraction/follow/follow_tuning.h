@@ -26,11 +26,8 @@ struct FollowTuning {
   double fine_grain = 0.05, coarse_grain = 0.13;
   /// Power of a kernel's scale by which it falls, near the stripe's own.
   double grain_falls = 1.2;
-  /// Times the length times height of any line before: a grained line that has more is the picture's main
-  /// one.
-  double main_line = 1.0;
-  /// Of its strength at the stripe's own scale: from such a grain on, single grains may pass for lines and
-  /// the line for none.
+  /// Of the picture's main line's strength, at the stripe's own scale: from such a grain on, single grains
+  /// may pass for lines and the line for none.
   double main_grain = 0.1;
   /// Sigma, px: below it a line's strength varies with its place between the pixels, which is no grain.
   double thinnest_grained = 1.3;

@@ -7,6 +7,7 @@
 #include <bit>
 #include <cmath>
 #include <cstddef>
+#include <cstring>
 #include <limits>
 
 #include "extraction/kernels/kernels_scan.h"
@@ -47,9 +48,48 @@ std::vector<T>& zeros_of(SeedWorkspace& w) {
     return w.zeros16;
 }
 
-/// The columns of one row that are looked at: the windows', or all.
-std::span<const ColumnSpan> spans_of_row(const SeedRule& rule, int y, const ColumnSpan& whole) {
-  return rule.windows != nullptr ? rule.windows->spans(y << rule.binned) : std::span(&whole, 1);
+/// The row of `where` that tells of a row of the searched image.
+const std::uint8_t* where_of_row(const SeedRule& rule, int y) {
+  if (rule.where == nullptr) return nullptr;
+  return rule.where + ((y << rule.binned) + ((1 << rule.binned) >> 1)) * rule.where_stride;
+}
+
+/// Whether any of `count` bytes is not 0; plain enough for the compiler to make vectors of it.
+bool any_set(const std::uint8_t* bytes, int count) {
+  static_assert(LaserPlace::kNone == 0 && LaserPlace::kFaint == 1);
+  std::uint64_t all = 0;
+  int i = 0;
+  for (; i + 8 <= count; i += 8) {
+    std::uint64_t eight = 0;
+    std::memcpy(&eight, bytes + i, 8);
+    all |= eight;
+  }
+  for (; i < count; ++i) all |= bytes[i];
+  return all != 0;
+}
+
+/// The parts of a row that hold the laser's colour: most of a picture does not.
+void find_coloured(const std::uint8_t* where, int width, int block, std::vector<ColumnSpan>& spans) {
+  spans.clear();
+  for (int x = 0; x < width; x += block) {
+    const int end = std::min(width, x + block);
+    if (!any_set(where + x, end - x)) continue;
+    if (!spans.empty() && spans.back().end == x)
+      spans.back().end = end;
+    else
+      spans.push_back({x, end});
+  }
+}
+
+/// The columns of one row that are looked at, in the pixels of the windows and of `where`.
+std::span<const ColumnSpan> spans_of_row(const SeedRule& rule, int y, int width, SeedWorkspace& w) {
+  constexpr int kBlock = 64;  // searched pixels: as many as one word of the masks is for
+  if (rule.windows != nullptr) return rule.windows->spans(y << rule.binned);
+  if (rule.where != nullptr)
+    find_coloured(where_of_row(rule, y), width, kBlock << rule.binned, w.coloured);
+  else
+    w.coloured.assign(1, {0, width});
+  return w.coloured;
 }
 
 /// A part [begin, end) of a row with what the vectors need on both sides of it.
@@ -110,18 +150,19 @@ void collect_seeds(ImageView<T> image, const SeedRule& rule, SeedWorkspace& w) {
   w.candidate_masks.resize(static_cast<std::size_t>((image.width + 63) / 64));
   w.found.clear();
   const int step = rule.step > 0 ? rule.step : row_step(rule.sigma);
-  const ColumnSpan whole{0, image.width};
-  const int shift = rule.windows != nullptr ? rule.binned : 0;
+  const int shift = rule.binned, half = (1 << shift) >> 1;
   for (int y = step / 2, number = 0; y < image.height; y += step, ++number) {
     const ScanRow<T> row{image.row(y), y >= scan.reach ? image.row(y - scan.reach) : zeros.data(),
                          y + scan.reach < image.height ? image.row(y + scan.reach) : zeros.data()};
+    const std::uint8_t* where = where_of_row(rule, y);
     const auto add = [&](int x) {
+      if (where != nullptr && where[(x << shift) + half] < LaserPlace::kFaint) return;
       const T contrast = candidate_contrast(row, x, image.width, scan.reach);
       if (contrast < scan.contrast || row.centre[x] < scan.level) return;
       const auto rank = static_cast<std::int32_t>((static_cast<std::uint64_t>(contrast) * scale) >> 16);
       w.found.push_back({x, y, std::min(rank, 255), row.centre[x] >= foreground});
     };
-    for (const ColumnSpan& span : spans_of_row(rule, y, whole)) {
+    for (const ColumnSpan& span : spans_of_row(rule, y, image.width << shift, w)) {
       const ColumnSpan here{span.begin >> shift, std::min(span.end >> shift, image.width)};
       candidates_of_span(row, image.width, scan, here, column_pattern(step, number), w.candidate_masks, add);
     }

@@ -3,6 +3,7 @@
 // Where lines may begin: pixels that stand out over both sides of a stripe (the paper's step 2, its search).
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -27,12 +28,15 @@ struct SeedRule {
   int reach = 0;          ///< px to the surroundings on both sides; 0: as suits `sigma`
   int step = 0;           ///< rows and columns between those that are searched; 0: as suits `sigma`
   const SearchWindows* windows = nullptr;  ///< nothing else is looked at; null: everything
-  int binned = 0;  ///< 2^binned pixels of the windows are one of the image that is searched
+  int binned = 0;  ///< 2^binned pixels of the windows and of `where` are one of the image that is searched
+  const std::uint8_t* where = nullptr;  ///< nothing begins where it is LaserPlace::kNone; null: everywhere
+  std::ptrdiff_t where_stride = 0;      ///< of the unbinned image's rows
 };
 
 struct SeedWorkspace {
   std::vector<LineSeed> found, sorted;
   std::vector<std::uint64_t> candidate_masks;
+  std::vector<ColumnSpan> coloured;  ///< of one row
   std::vector<std::uint8_t> zeros8;
   std::vector<std::uint16_t> zeros16;
 };

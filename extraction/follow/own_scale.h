@@ -53,6 +53,9 @@ struct OwnScaleWorkspace {
   std::vector<std::uint8_t> blocked;
   SearchPatience patience;
   std::vector<StripePoint> binned_points;
+  /// Of a line that is taken back for another try.
+  std::vector<StripePoint> lifted_points;
+  std::vector<ExclusionMask::Mark> lifted_marks;
   std::vector<float> values;
 };
 

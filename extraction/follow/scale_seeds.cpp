@@ -31,12 +31,13 @@ void collect_scale_seeds(const ImagePyramid<T>& pyramid, int level, const ScaleS
   of_level.step = level == 0 ? 2 : 1;
   of_level.windows = rule.windows;
   of_level.binned = level;
-  collect_seeds(pyramid.levels[k], of_level, workspace);
   const ImageView<T> image = pyramid.levels[0];
+  of_level.where = image.where;
+  of_level.where_stride = image.stride;
+  collect_seeds(pyramid.levels[k], of_level, workspace);
   const int half = (1 << level) / 2;
   for (const LineSeed& s : workspace.found) {
     const int x = (s.x << level) + half, y = (s.y << level) + half;
-    if (!image.contains(x, y) || image.laser_colour(x, y) < LaserPlace::kFaint) continue;
     found.push_back({x, y, static_cast<std::int16_t>(level), static_cast<std::int16_t>(s.rank)});
   }
 }

@@ -25,33 +25,83 @@ struct MeanProfile {
   int rows = 0;
 };
 
-/// A profile under work: the rows that are read forwards, and those that are read backwards.
-struct ProfileSums {
-  std::span<float> forwards, backwards;
+/// Columns side by side that cross the line at one row: of a line along the rows many do.
+struct ColumnRun {
+  int x = 0, y = 0, count = 0;
+  bool forwards = true;
+
+  bool goes_on(int next_x, int next_y, bool next_forwards) const {
+    return count > 0 && next_x == x + count && next_y == y && next_forwards == forwards;
+  }
 };
 
-/// One row or column, around the line's pixel. Profiles begin on the side that the points' normals come from,
-/// so that rows and columns of one stretch agree.
+/// The rows and columns of one stretch, laid over each other around the line's pixels. Profiles begin on the
+/// side that the points' normals come from, so that rows and columns of one stretch agree. Sums of whole
+/// numbers are exact in any order.
 template <class T>
-void add_row(ImageView<T> image, const StripePoint& p, int reach, const ProfileSums& sums,
-             MeanProfile& mean) {
+class ProfileSums {
+ public:
+  /// `sums`: scratch memory.
+  ProfileSums(ImageView<T> image, int reach, std::vector<std::uint32_t>& sums)
+      : image_(image), reach_(reach), size_(static_cast<std::size_t>(2 * reach + 1)), sums_(sums) {
+    sums_.assign(2 * size_, 0);
+  }
+
+  void add(const StripePoint& p, MeanProfile& mean);
+  /// After the last add().
+  void to_profile(std::vector<float>& profile) {
+    add_run();
+    profile.resize(size_);
+    for (std::size_t k = 0; k < size_; ++k)
+      profile[k] = static_cast<float>(sums_[k]) + static_cast<float>(sums_[2 * size_ - 1 - k]);
+  }
+
+ private:
+  /// Of the rows that are read forwards, or backwards.
+  std::uint32_t* sums_of(bool forwards) { return sums_.data() + (forwards ? 0 : size_); }
+  void add_run();
+
+  ImageView<T> image_;
+  int reach_;
+  std::size_t size_;
+  std::vector<std::uint32_t>& sums_;
+  ColumnRun run_;
+};
+
+template <class T>
+void ProfileSums<T>::add(const StripePoint& p, MeanProfile& mean) {
   const bool is_row = std::abs(p.normal_x) >= std::abs(p.normal_y);
   const int x = nearest_pixel(p.x), y = nearest_pixel(p.y);
-  const int at = is_row ? x : y, count = is_row ? image.width : image.height;
-  if (!image.contains(x, y) || at < reach || at + reach >= count) return;
+  const int at = is_row ? x : y, count = is_row ? image_.width : image_.height;
+  if (!image_.contains(x, y) || at < reach_ || at + reach_ >= count) return;
   const bool forwards = (is_row ? p.normal_x : p.normal_y) >= 0;
-  float* sum = forwards ? sums.forwards.data() : sums.backwards.data();
   if (is_row) {
-    const T* pixel = image.row(y) + x - reach;
-    for (int k = 0; k <= 2 * reach; ++k) sum[k] += static_cast<float>(pixel[k]);
+    std::uint32_t* sum = sums_of(forwards);
+    const T* pixel = image_.row(y) + x - reach_;
+    for (int k = 0; k <= 2 * reach_; ++k) sum[k] += pixel[k];
+  } else if (run_.goes_on(x, y, forwards)) {
+    ++run_.count;
   } else {
-    const T* pixel = image.row(y - reach) + x;
-    for (int k = 0; k <= 2 * reach; ++k, pixel += image.stride) sum[k] += static_cast<float>(*pixel);
+    add_run();
+    run_ = {x, y, 1, forwards};
   }
   const double off = is_row ? p.x - x : p.y - y;
   mean.centre += forwards ? off : -off;
   mean.cosine += std::abs(is_row ? p.normal_x : p.normal_y);
   ++mean.rows;
+}
+
+template <class T>
+void ProfileSums<T>::add_run() {
+  if (run_.count == 0) return;
+  std::uint32_t* sum = sums_of(run_.forwards);
+  const T* pixel = image_.row(run_.y - reach_) + run_.x;
+  for (int k = 0; k <= 2 * reach_; ++k, pixel += image_.stride) {
+    std::uint32_t total = 0;
+    for (int i = 0; i < run_.count; ++i) total += pixel[i];
+    sum[k] += total;
+  }
+  run_.count = 0;
 }
 
 /// Sums of a profile under a Gaussian and its derivatives.
@@ -95,20 +145,18 @@ double aside_at(std::span<const float> profile, double centre, double sigma) {
 /// The shift that one stretch [begin, end) points at, px across the line.
 template <class T>
 double shift_of(ImageView<T> image, std::span<const StripePoint> points, double sigma,
-                std::vector<float>& profile) {
+                AsymmetryWorkspace& w) {
   const int reach = static_cast<int>(std::ceil(3 * kBroad * sigma)) + 1;
-  const auto size = static_cast<std::size_t>(2 * reach + 1);
-  profile.assign(2 * size, 0.0F);
-  const ProfileSums sums{std::span(profile).first(size), std::span(profile).last(size)};
+  ProfileSums<T> sums(image, reach, w.sums);
   MeanProfile mean{0, 0, 0};
   for (const StripePoint& p : points)
-    if ((p.flags & kStripeBridged) == 0) add_row(image, p, reach, sums, mean);
-  for (std::size_t k = 0; k < size; ++k) sums.forwards[k] += sums.backwards[size - 1 - k];
+    if ((p.flags & kStripeBridged) == 0) sums.add(p, mean);
   if (mean.rows < 4) return 0;
+  sums.to_profile(w.profile);
   const double scale = sigma * mean.rows / mean.cosine, centre = mean.centre / mean.rows;
-  const double own = aside_at(sums.forwards, centre, scale);
-  const double narrow = aside_at(sums.forwards, centre, kNarrow * scale),
-               broad = aside_at(sums.forwards, centre, kBroad * scale);
+  const double own = aside_at(w.profile, centre, scale);
+  const double narrow = aside_at(w.profile, centre, kNarrow * scale),
+               broad = aside_at(w.profile, centre, kBroad * scale);
   return (broad - own) - (narrow - own);
 }
 
@@ -146,7 +194,7 @@ void add_to_line(ImageView<T> image, double sigma, std::span<StripePoint> points
   w.asides.clear();
   for (std::size_t k = 0; k < stretches; ++k)
     w.asides.push_back(
-        shift_of<T>(image, points.subspan(begin_of(k), begin_of(k + 1) - begin_of(k)), sigma, w.profile));
+        shift_of<T>(image, points.subspan(begin_of(k), begin_of(k + 1) - begin_of(k)), sigma, w));
   const double scatter = scatter_of(w.asides, w.scatter);
   for (std::size_t k = 0; k < stretches; ++k) {
     const double shift = std::min(sigma, kShiftByDisagreement * clear_shift(w.asides, k, scatter, w.scatter));

@@ -4,6 +4,7 @@
 // the brightness behind it, a mirror image beside it.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "core/image.h"
@@ -14,8 +15,9 @@ namespace lightstripe {
 
 /// Scratch memory.
 struct AsymmetryWorkspace {
-  std::vector<float> profile;  ///< mean grey values across a stretch of the line
-  std::vector<double> asides;  ///< px, of each stretch
+  std::vector<std::uint32_t> sums;  ///< grey values across a stretch of the line
+  std::vector<float> profile;       ///< the same, all in one direction
+  std::vector<double> asides;       ///< px, of each stretch
   std::vector<double> scatter;
 };
 

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <numbers>
 #include <type_traits>
@@ -119,11 +118,13 @@ double collect_offsets(ImageView<T> image, const DerivativeKernels& kernels, con
   return used > 0 ? cosines / used : 1;
 }
 
-/// Of each value, how many follow each other up to it without a gap.
-void count_joined(const std::vector<float>& offsets, std::vector<std::uint32_t>& joined) {
-  joined.resize(offsets.size());
-  std::uint32_t run = 0;
-  for (std::size_t i = 0; i < offsets.size(); ++i) joined[i] = run = offsets[i] == offsets[i] ? run + 1 : 0;
+void find_runs(const std::vector<float>& offsets, std::vector<RowScatterWorkspace::Run>& runs) {
+  runs.clear();
+  for (std::size_t i = 0; i < offsets.size(); ++i) {
+    if (std::isnan(offsets[i])) continue;
+    if (i == 0 || std::isnan(offsets[i - 1])) runs.push_back({i, i});
+    runs.back().end = i + 1;
+  }
 }
 
 /// The sum of what `values` hold up to `limit`. Four sums, which do not wait for each other.
@@ -136,33 +137,49 @@ double bounded_sum(const std::vector<float>& values, float limit) {
   return double{sums[0]} + double{sums[1]} + double{sums[2]} + double{sums[3]};
 }
 
+/// Four maxima, which do not wait for each other.
+float largest_of(const std::vector<float>& values) {
+  std::array<float, 4> largest{};
+  std::size_t i = 0;
+  for (; i + 4 <= values.size(); i += 4)
+    for (std::size_t k = 0; k < 4; ++k) largest[k] = std::max(largest[k], values[i + k]);
+  for (; i < values.size(); ++i) largest[0] = std::max(largest[0], values[i]);
+  return std::max(std::max(largest[0], largest[1]), std::max(largest[2], largest[3]));
+}
+
+/// A sixth of the squared second differences of rows `lag` apart.
+void square_differences(const RowScatterWorkspace& w, std::size_t lag, std::vector<float>& squares) {
+  std::size_t count = 0;
+  for (const auto& run : w.runs) count += run.end - run.begin > 2 * lag ? run.end - run.begin - 2 * lag : 0;
+  squares.resize(count);
+  float* out = squares.data();
+  for (const auto& run : w.runs) {
+    if (run.end - run.begin <= 2 * lag) continue;
+    const std::size_t length = run.end - run.begin - 2 * lag;
+    const float *first = w.offsets.data() + run.begin, *middle = first + lag, *last = middle + lag;
+    // Plain enough for the compiler to make vectors of it.
+    for (std::size_t i = 0; i < length; ++i) {
+      const float difference = last[i] - 2 * middle[i] + first[i];
+      out[i] = difference * difference * (1.0F / 6);
+    }
+    out += length;
+  }
+}
+
 /// A sixth of the mean squared second difference of rows `lag` apart, which bends of the line hardly touch;
 /// single values of more than 16 times the mean count as that much, so that a spot or a crossing does not
 /// decide. -1 for too few rows.
 double second_difference(const RowScatterWorkspace& w, std::size_t lag, std::vector<float>& squares) {
-  const std::vector<float>& offsets = w.offsets;
-  squares.clear();
-  for (std::size_t i = 2 * lag; i < offsets.size(); ++i) {
-    if (w.joined[i] <= 2 * lag) continue;
-    const float difference = offsets[i] - 2 * offsets[i - lag] + offsets[i - 2 * lag];
-    squares.push_back(difference * difference * (1.0F / 6));
-  }
+  square_differences(w, lag, squares);
   if (squares.size() < kLeastRows) return -1;
-  double limit = std::numeric_limits<float>::max(), mean = 0;
-  for (int pass = 0; pass < 3; ++pass, limit = 16 * mean)
-    mean = bounded_sum(squares, static_cast<float>(limit)) / static_cast<double>(squares.size());
+  const auto count = static_cast<double>(squares.size());
+  double mean = bounded_sum(squares, std::numeric_limits<float>::max()) / count;
+  for (int pass = 0; pass < 2; ++pass) {
+    const auto limit = static_cast<float>(16 * mean);
+    if (largest_of(squares) <= limit) break;  // nothing is bounded, now or later
+    mean = bounded_sum(squares, limit) / count;
+  }
   return mean;
-}
-
-/// What second_difference would be at a distance d along the line for a scatter of variance 1: rows are seen
-/// against the line, which is itself their mean by a Gaussian of sigma.
-double expected_difference(double grain, double sigma, double d) {
-  const auto smoothed = [&](double square) {
-    const double t2 = grain * grain, s2 = t2 + square;
-    const auto fallen = [&](double distance) { return 1 - std::exp(-0.5 * distance * distance / s2); };
-    return std::sqrt(t2 / s2) * (8 * fallen(d) - 2 * fallen(2 * d)) / 6;
-  };
-  return smoothed(0) - 2 * smoothed(sigma * sigma) + smoothed(2 * sigma * sigma);
 }
 
 /// Non-negative least squares of `seen` by two shapes, each lag weighted by its own size.
@@ -193,10 +210,32 @@ TwoShares fit_shares(const LagValues& seen, const LagValues& white, const LagVal
   return out;
 }
 
+/// By how much the correlation of a Gaussian of variance `s2` has fallen 1, 2 ... 2 kLags steps away.
+using Fallen = std::array<double, 2 * kLags + 1>;
+Fallen fallen_by_steps(double s2, double step) {
+  Fallen out{};
+  for (std::size_t m = 1; m < out.size(); ++m) {
+    if (m > kLags && m % 2 != 0) continue;  // of the long distances only twice the short ones are needed
+    const double distance = static_cast<double>(m) * step;
+    out.at(m) = 1 - std::exp(-0.5 * distance * distance / s2);
+  }
+  return out;
+}
+
+/// What second_difference would be for a scatter of variance 1: rows are seen against the line, which is
+/// itself their mean by a Gaussian of sigma.
 LagValues expected_differences(double grain, double sigma, double step) {
+  const double t2 = grain * grain;
+  const std::array<double, 3> squares{0, sigma * sigma, 2 * sigma * sigma};
+  std::array<LagValues, 3> smoothed{};
+  for (std::size_t s = 0; s < squares.size(); ++s) {
+    const double s2 = t2 + squares.at(s);
+    const Fallen fallen = fallen_by_steps(s2, step);
+    for (std::size_t k = 0; k < kLags; ++k)
+      smoothed.at(s).at(k) = std::sqrt(t2 / s2) * (8 * fallen.at(k + 1) - 2 * fallen.at(2 * k + 2)) / 6;
+  }
   LagValues out{};
-  for (std::size_t k = 0; k < out.size(); ++k)
-    out[k] = expected_difference(grain, sigma, static_cast<double>(k + 1) * step);
+  for (std::size_t k = 0; k < out.size(); ++k) out[k] = smoothed[0][k] - 2 * smoothed[1][k] + smoothed[2][k];
   return out;
 }
 
@@ -229,14 +268,20 @@ double common_grain(std::span<const RowDifferences> lines) {
   if (count == 0) return 0;
   const Grains grains(step, sigma);
   std::array<double, Grains::kCount> misfits{};
-  for (const RowDifferences& line : lines) {
-    if (line.rows == 0) continue;
-    const LagValues white = expected_differences(kIndependent * line.step, line.sigma, line.step);
-    for (std::size_t i = 0; i < misfits.size(); ++i)
-      misfits.at(i) += line.rows * shares_of(line, white, grains.px.at(i)).misfit;
-  }
+  const auto add_misfits = [&](std::size_t first, std::size_t end) {
+    for (const RowDifferences& line : lines) {
+      if (line.rows == 0) continue;
+      const LagValues white = expected_differences(kIndependent * line.step, line.sigma, line.step);
+      for (std::size_t i = first; i < end; ++i)
+        misfits.at(i) += line.rows * shares_of(line, white, grains.px.at(i)).misfit;
+    }
+  };
+  const double tolerance = kToleranceOfWhite + kToleranceOfAnother * (count - 1);
+  add_misfits(0, 1);
+  if (misfits[0] <= tolerance) return 0;  // no grain can be better by more than that
+  add_misfits(1, misfits.size());
   const double least = *std::min_element(misfits.begin(), misfits.end());
-  if (misfits[0] <= least + kToleranceOfWhite + kToleranceOfAnother * (count - 1)) return 0;
+  if (misfits[0] <= least + tolerance) return 0;
   std::size_t best = 1;
   while (misfits.at(best) > least + kTolerance) ++best;
   return grains.px.at(best);
@@ -272,7 +317,7 @@ template <class T>
 RowDifferences look_at_rows(ImageView<T> image, const DerivativeKernels& kernels, const LineSet& lines,
                             const LineRange& range, RowScatterWorkspace& w) {
   const double cosine = collect_offsets(image, kernels, lines, range, w.offsets);
-  count_joined(w.offsets, w.joined);
+  find_runs(w.offsets, w.runs);
   RowDifferences line;
   line.sigma = kernels.sigma;
   line.step = 1 / cosine;

@@ -48,7 +48,10 @@ struct RowDifferences {
 struct RowScatterWorkspace {
   std::vector<float> offsets;  ///< px across the line, of each row; NaN between two stretches
   std::vector<float> squares;
-  std::vector<std::uint32_t> joined;  ///< values without a gap up to each of the offsets
+  struct Run {
+    std::size_t begin = 0, end = 0;
+  };
+  std::vector<Run> runs;  ///< of offsets without a gap
 };
 
 /// Looks at one line in an image: each row's centre against the line, which the kernels have smoothed, so

@@ -5,14 +5,16 @@ const signed = v => (Math.round(1000 * v) / 1000 || 0).toFixed(3);  // no -0.000
 // At least two digits that count: 0.0000 would be a promise.
 const mm = (v, digits = 4) => !(v > 0) ? '-' : v >= 10 ** (1 - digits) ? v.toFixed(digits) : v.toPrecision(2);
 
+const were = count => count === 1 ? 'was' : 'were';
+
 // What was left out, in a few words for the header.
 function leftOut() {
   const words = [];
   data.stripes.forEach(s => {
-    if (s.found > s.agreeing) words.push(`${s.found - s.agreeing} of ${s.found} stripes of ${s.name} were left out`);
+    if (s.found > s.agreeing) words.push(`${s.found - s.agreeing} of ${s.found} stripes of ${s.name} ${were(s.found - s.agreeing)} left out`);
   });
   const lost = data.rejected.length, all = lost + data.used.length;
-  if (lost) words.push(`${lost} of ${all} pictures were left out, whole or in part`);
+  if (lost) words.push(`${lost} of ${all} pictures ${were(lost)} left out, whole or in part`);
   return words.join('; ');
 }
 

@@ -17,10 +17,11 @@ function element(tag, text, parent, className) {
 function table(parent, header, rows) {
   const t = element('table', undefined, parent);
   const head = element('tr', undefined, t);
-  header.forEach(h => element('th', h, head));
+  const isText = c => typeof c === 'string' && !/^(-|[-+]?[\d.]+)?$/.test(c);
+  header.forEach((h, i) => element('th', h, head, rows.some(r => isText(r[i])) ? 'text' : ''));
   rows.forEach(r => {
     const line = element('tr', undefined, t);
-    r.forEach(c => element('td', c, line, typeof c === 'string' && !/^(-|[-+]?[\d.]+)$/.test(c) ? 'text' : ''));
+    r.forEach(c => element('td', c, line, isText(c) ? 'text' : ''));
   });
   return t;
 }

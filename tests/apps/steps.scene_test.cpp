@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "command_line.h"
+#include "io/atomic_file.h"
 #include "io/csv_reader.h"
 #include "io/map_files.h"
 
@@ -27,6 +28,8 @@ constexpr const char* kFeatures = R"(features:
   - {name: high, type: line, u: [-304, -272]}
 measurements:
   - {name: step, type: step_height, of: [low, high]}
+along:
+  - {name: high_flat, type: flatness, of: [high]}
 )";
 
 class Steps : public ::testing::Test {
@@ -61,6 +64,20 @@ TEST_F(Steps, FeatureToolsMeasureThemToAHundredth) {
     ++count;
   }
   EXPECT_EQ(count, 8);
+}
+
+// The table along the scan is one that people open as well.
+TEST_F(Steps, BothTablesFollowTheStyle) {
+  const std::string at = quoted(folder_->path());
+  const CommandResult result =
+      run_lightstripe("measure " + at + "/p.csv --kind features --features " + at + "/features.yaml -o " +
+                      at + "/excel.csv --csv-style excel --quiet");
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  for (const char* name : {"excel.csv", "excel_along.csv"}) {
+    const std::string table = read_file(*folder_ / name);
+    EXPECT_EQ(table.substr(0, 3), "\xef\xbb\xbf") << name;
+    EXPECT_NE(table.find(';'), std::string::npos) << name;
+  }
 }
 
 // Per column of the map: mean of the upper tread less that of the lower one, 6 mm about the edge and 4 at the

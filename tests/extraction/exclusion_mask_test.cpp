@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <vector>
+
 namespace lightstripe {
 namespace {
 
@@ -43,6 +45,31 @@ TEST(ExclusionMask, RelabelsWhatWasMarkedSinceTheCheckpoint) {
   EXPECT_EQ(mask(10, 30), 4);
   mask.reset(64, 48, 1);
   EXPECT_EQ(mask(10, 8), ExclusionMask::kFree);
+}
+
+TEST(ExclusionMask, WhatWasLiftedStandsAgainAsItDid) {
+  ExclusionMask mask;
+  mask.reset(64, 48, 0);
+  mask.mark_row(8, 10, 4, 3);
+  const auto checkpoint = mask.checkpoint();
+  mask.mark_row(8, 14, 4, 5);  // its left part is the first line's
+  mask.mark_row(9, 14, 4, 6);
+  std::vector<ExclusionMask::Mark> lifted;
+  mask.lift(checkpoint, 5, 6, lifted);
+  EXPECT_EQ(mask(12, 8), 3);
+  EXPECT_EQ(mask(17, 8), ExclusionMask::kFree);
+  EXPECT_EQ(mask(17, 9), ExclusionMask::kFree);
+  const auto another = mask.checkpoint();
+  mask.mark_row(9, 14, 2, 7);  // a try in its place, which fails
+  mask.relabel(another, 7, 7, ExclusionMask::kDead);
+  mask.put_back(lifted);
+  EXPECT_EQ(mask(12, 8), 3);
+  EXPECT_EQ(mask(17, 8), 5);
+  EXPECT_EQ(mask(14, 9), 6);
+  mask.relabel(checkpoint, 5, 7, ExclusionMask::kFree);  // and can be taken back for good
+  EXPECT_EQ(mask(17, 8), ExclusionMask::kFree);
+  EXPECT_EQ(mask(14, 9), ExclusionMask::kFree);
+  EXPECT_EQ(mask(12, 8), 3);
 }
 
 }  // namespace

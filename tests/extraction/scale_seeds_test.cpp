@@ -51,5 +51,28 @@ TEST(ScaleSeeds, AreNotWhereTheLasersColourIsMissing) {
   for (const ScaleSeed& s : seeds) EXPECT_NEAR(s.y, 20, 2);
 }
 
+TEST(ScaleSeeds, WithColourAreThoseWithoutThatLieInIt) {
+  Image8 image(301, 203, 20);
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x)
+      image(x, y) = static_cast<std::uint8_t>(20 + 150 * ((x * 7 + y * 13) % 97 < 9 ? 1 : 0));
+  const auto in_colour = [](int x, int y) { return (x / 23 + y / 17) % 5 == 0 || x > 296; };
+  for (int level = 0; level < 3; ++level) {
+    image.where.clear();
+    std::vector<ScaleSeed> expected;
+    for (const ScaleSeed& s : seeds_of(image, level))
+      if (in_colour(s.x, s.y)) expected.push_back(s);
+    image.where.resize(image.pixels.size());
+    for (int y = 0; y < image.height; ++y)
+      for (int x = 0; x < image.width; ++x)
+        image.where[static_cast<std::size_t>(image.width * y + x)] =
+            in_colour(x, y) ? LaserPlace::kFaint : LaserPlace::kNone;
+    const auto seeds = seeds_of(image, level);
+    ASSERT_EQ(seeds.size(), expected.size()) << level;
+    for (std::size_t i = 0; i < seeds.size(); ++i)
+      EXPECT_TRUE(seeds[i].x == expected[i].x && seeds[i].y == expected[i].y) << level << " " << i;
+  }
+}
+
 }  // namespace
 }  // namespace lightstripe
