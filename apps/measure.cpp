@@ -4,8 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <map>
-
 #include "apps/command.h"
 #include "apps/options.h"
 #include "apps/progress.h"
@@ -15,10 +13,10 @@
 #include "io/images.h"
 #include "io/output_guard.h"
 #include "pipeline/features_job.h"
-#include "pipeline/measurement_table.h"
 #include "report/cloud_deviation.h"
 #include "report/features_report.h"
 #include "report/measure_report.h"
+#include "report/measure_text.h"
 #include "report/section_drawing.h"
 
 namespace lightstripe {
@@ -70,48 +68,6 @@ void write_plots(const MeasureArguments& arguments, const MeasureJob& job, const
   }
 }
 
-void say_run_out(const CommonOptions& common, const RunOut& run_out) {
-  const auto line = [&](const char* what, const Estimate& estimate) {
-    if (estimate.value)
-      say(common, fmt::format("{} run-out {:.3f} mm, sigma {:.3f}", what, *estimate.value,
-                              estimate.sigma.value_or(0)));
-  };
-  line("radial", run_out.radial);
-  line("axial", run_out.axial);
-}
-
-void summarise(const MeasureArguments& arguments, const MeasureJob& job, const MeasureResult& result) {
-  const CommonOptions& common = arguments.common;
-  if (result.references.identified()) say(common, "rail: " + result.references.identified()->name);
-  for (const auto& warning : result.warnings) warn(warning);
-  say(common, fmt::format("{:<18} {:>6} {:>10} {:>10} {:>10}", "", "frames", "lowest", "mean", "highest"));
-  for (const std::string& name : estimate_names(job.kind)) {
-    const Spread spread = spread_of(result.rows, name);
-    if (spread.known == 0) continue;
-    say(common, fmt::format("{:<18} {:>6} {:>10.3f} {:>10.3f} {:>10.3f}", name, spread.known, spread.low,
-                            spread.mean, spread.high));
-  }
-  for (const char* const name : {"overlap_gap", "gauge", "conicity"}) {
-    const Spread spread = spread_of(result.rows, name);
-    if (spread.known > 0)
-      say(common, fmt::format("{:<18} {:>6} {:>10.3f} {:>10.3f} {:>10.3f}", name, spread.known, spread.low,
-                              spread.mean, spread.high));
-  }
-  if (result.run_out) say_run_out(common, *result.run_out);
-  const Spread diameter = spread_of(result.rows, "diameter");
-  if (diameter.known > 0 && !job.rig.empty())
-    say(common,
-        "the diameter's sigma is twice that of the axis' place in the rig's calibration: a board seen over a "
-        "few degrees fixes an "
-        "axis half a metre away only to a millimetre; it is common to all frames");
-  std::map<std::string, int> reasons;
-  for (const MeasuredFrame& row : result.rows)
-    if (row.status != "ok") ++reasons[row.status];
-  for (const auto& [reason, count] : reasons)
-    warn(fmt::format("{} of {} frames: {}", count, result.rows.size(), reason));
-  say(common, fmt::format("{} of {} frames ok -> {}", result.num_ok, result.rows.size(), job.table.string()));
-}
-
 int run_measure(const MeasureArguments& arguments) {
   const MeasureJob job = job_of(arguments);
   const MeasureResult result = measure(job, progress_line(arguments.common.quiet));
@@ -125,14 +81,8 @@ int run_measure(const MeasureArguments& arguments) {
     write_file(arguments.report, measure_report_html(job, result,
                                                      {arguments.report, arguments.scan,
                                                       link_to(arguments.view, arguments.report)}));
-  summarise(arguments, job, result);
-  if (!result.usable()) return not_usable(result.not_usable);
-  if (result.num_ok == 0)
-    warn(
-        fmt::format("none of {} frames could be measured completely: what is not known is an empty cell "
-                    "(--require names what you need)",
-                    result.rows.size()));
-  return kExitDone;
+  tell(arguments.common, describe_measurement(job, result));
+  return result.usable() ? kExitDone : not_usable(result.not_usable);
 }
 
 /// What a user names in a file instead of a rail or a wheel.
@@ -141,7 +91,7 @@ int run_features(const MeasureArguments& arguments) {
     throw Error("--features", "is missing",
                 "name the file that says what to measure; see configs/features.yaml");
   FeaturesJob job;
-  job.profiles = arguments.job.profiles, job.features = arguments.features;
+  job.profiles = arguments.job.profiles, job.features = arguments.features, job.rig = arguments.job.rig;
   if (!arguments.common.output.empty()) job.table = arguments.common.output;
   job.threads = arguments.common.threads;
   job.other_outputs = {arguments.report};
@@ -220,7 +170,8 @@ void add_measure_command(CLI::App& app, Command& run) {
   add_choice<SectionFormat>(*command, "--export-format", arguments->job.export_format,
                             {{"miniprof", SectionFormat::kMiniProf}, {"simpack", SectionFormat::kSimpack}},
                             "miniprof or simpack [miniprof]");
-  command->add_option("--rig", arguments->job.rig, "rig file, for the diameter's predicted error");
+  command->add_option("--rig", arguments->job.rig,
+                      "rig file: what its calibration errs by counts in the predicted errors");
   add_common_options(*command, arguments->common,
                      "table of measurements, .csv or .xlsx (default: measurements.csv)");
   add_field_options<RailOptions>(*command, "", arguments->rail);

@@ -112,6 +112,7 @@ void assess(const SessionViews& session, const JointAdjustment& adjustment,
   const auto section = section_uncertainty(session, adjustment, up);
   quality.section_shape_sigma_mm = section.shape_mm;
   quality.section_absolute_sigma_mm = section.absolute_mm;
+  if (session.motion != MotionType::kRotary) quality.section_bends = section_bends(session, adjustment, up);
   const CalibrationDiagnosis& diagnosis =
       result.diagnosis.emplace(diagnose(session, adjustment, spreads, up, options));
   if (diagnosis.cross_validation.done) quality.cross_validation_ratio = diagnosis.cross_validation.ratio();

@@ -54,10 +54,10 @@ double predicted_error(const PlacedSection& placed, const SurfaceProbe& probe) {
 /// The error of points whose own predicted one is not that of the points that the registration rests on: a
 /// face that a sensor looks straight at is better known than the web that it sees at a glance.
 ErrorAlong as_predicted_here(const Registration& registration, double predicted_mm) {
-  constexpr double kBest = 0.75, kWorst = 2;  // what the calibration bends does not shrink with the noise
+  constexpr double kWorst = 2;
   ErrorAlong error = registration.error;
   if (!(predicted_mm > 0 && registration.predicted_mm > 0)) return error;
-  const double scale = std::clamp(predicted_mm / registration.predicted_mm, kBest, kWorst);
+  const double scale = std::min(predicted_mm / registration.predicted_mm, kWorst);
   error.own_mm *= scale, error.shared_mm *= scale;
   return error;
 }

@@ -8,8 +8,10 @@
 #include "io/atomic_file.h"
 #include "io/number_text.h"
 #include "io/output_guard.h"
+#include "io/rig_file.h"
 #include "io/tables.h"
 #include "io/yaml_binding.h"
+#include "measure/section_bends.h"
 #include "parallel/parallel.h"
 #include "pipeline/job.h"
 #include "pipeline/run_record.h"
@@ -66,11 +68,26 @@ std::string features_table(const FeaturesResult& result) {
   return out;
 }
 
+namespace {
+
+/// With what the calibration's error does to each quantity.
+MeasuredFeatures measure_with_bends(const Profile& profile, const FeatureFile& file,
+                                    const SectionBends& bends) {
+  MeasuredFeatures row = measure_features(profile, file);
+  for (std::size_t b = 0; b < bends.bends.size(); ++b) {
+    const MeasuredFeatures other = measure_features(bent(profile, bends, b), file);
+    for (std::size_t i = 0; i < row.quantities.size(); ++i) add_bend(other.quantities[i], row.quantities[i]);
+  }
+  return row;
+}
+
+}  // namespace
+
 FeaturesResult measure_features_job(const FeaturesJob& job) {
   const JobThreads threads(job.threads);
   std::vector<std::filesystem::path> outputs = job.other_outputs;
   outputs.insert(outputs.end(), {job.table, along_file(job.table)});
-  guard_outputs({job.profiles, job.features}, outputs);
+  guard_outputs({job.profiles, job.features, job.rig}, outputs);
   FeaturesResult result;
   read_yaml(job.features, result.file);
   result.file.check(job.features.string());
@@ -78,8 +95,11 @@ FeaturesResult measure_features_job(const FeaturesJob& job) {
   if (result.profiles.empty())
     throw Error(job.profiles.string(), "has no rows", "give the sections of a scan");
   result.rows.resize(result.profiles.size());
-  parallel_for(result.profiles.size(),
-               [&](std::size_t i) { result.rows[i] = measure_features(result.profiles[i], result.file); });
+  const SectionBends bends =
+      job.rig.empty() ? SectionBends{} : read_rig(job.rig).quality.section_bends.value_or(SectionBends{});
+  parallel_for(result.profiles.size(), [&](std::size_t i) {
+    result.rows[i] = measure_with_bends(result.profiles[i], result.file, bends);
+  });
   result.along = measure_along(result.rows, result.file);
   for (const MeasuredFeatures& row : result.rows)
     result.num_complete += std::all_of(row.quantities.begin(), row.quantities.end(),

@@ -13,6 +13,7 @@ namespace lightstripe {
 
 struct FeaturesJob {
   std::filesystem::path profiles, features;
+  std::filesystem::path rig;  ///< whose calibration's error counts in the sigmas; empty: not known
   std::filesystem::path table = "measurements.csv";
   std::vector<std::filesystem::path> other_outputs;  ///< what else is written: must not be an input either
   int threads = 0;                                   ///< 0: all cores

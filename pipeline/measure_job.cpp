@@ -15,6 +15,7 @@
 #include "io/yaml_binding.h"
 #include "measure/measure_track.h"
 #include "measure/profile_formats.h"
+#include "pipeline/conicity_table.h"
 #include "pipeline/measurement_table.h"
 #include "pipeline/measurement_workbook.h"
 #include "pipeline/run_record.h"
@@ -141,7 +142,9 @@ void write_results(const MeasureJob& job, const MeasureResult& result) {
                                  job.limits);
     else
       write_file(job.table, measurement_table(result.rows, job.kind, result.extra_columns, result.verdicts));
-    write_run_record(job.table, "measure", {job.profiles}, effective_options(job));
+    std::vector<fs::path> inputs{job.profiles};
+    if (!job.rig.empty()) inputs.push_back(job.rig);
+    write_run_record(job.table, "measure", inputs, effective_options(job));
   }
   if (!job.conicity_table.empty()) write_file(job.conicity_table, track_conicity_table(result.rows));
   if (!job.export_folder.empty()) export_sections(job, result);

@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "io/rig_file.h"
+#include "measure/section_bends.h"
 #include "measure/track_gauge.h"
 #include "pipeline/conicity_job.h"
 
@@ -69,10 +70,13 @@ MeasureReferences::MeasureReferences(const ReferenceChoice& choice, const Measur
     if (!choice.wheelset.empty()) wheelset_ = read_wheelset(choice);
     between_u_ = place_between(choice, input);
     if (!choice.nominal_right.empty()) right_ = read_reference(choice.nominal_right, input.kind);
-    if (!rig_file.empty()) {
-      const double sigma = read_rig(rig_file).quality.section_absolute_sigma_mm;
-      if (sigma > 0) rig_sigma_mm_ = sigma;
-    }
+  }
+  if (!rig_file.empty()) {
+    const RigQuality quality = read_rig(rig_file).quality;
+    if (choice.two_rails && quality.section_absolute_sigma_mm > 0)
+      rig_sigma_mm_ = quality.section_absolute_sigma_mm;
+    // A track's gauge and conicity take the rig's error as rig_sigma_mm_.
+    if (!choice.two_rails) bends_ = quality.section_bends.value_or(SectionBends{});
   }
   if (!choice.baseline.empty()) baseline_ = read_baseline(choice.baseline, nominal_, options);
 }
@@ -84,6 +88,16 @@ const ReferenceShape& MeasureReferences::at(double travel) const {
 
 MeasuredFrame MeasureReferences::measure(const Profile& profile, const MeasureInput& input,
                                          const MeasureOptions& options) const {
+  MeasuredFrame row = measure_seen(profile, input, options);
+  std::vector<MeasuredFrame> bent_rows;
+  for (std::size_t i = 0; i < bends_.bends.size() && row.registration.usable(); ++i)
+    bent_rows.push_back(measure_seen(bent(profile, bends_, i), input, options));
+  add_bends(bent_rows, row);
+  return row;
+}
+
+MeasuredFrame MeasureReferences::measure_seen(const Profile& profile, const MeasureInput& input,
+                                              const MeasureOptions& options) const {
   if (between_u_)
     return measure_track(
         profile, {nominal_, right(), *between_u_, rig_sigma_mm_, wheelset_ ? &*wheelset_ : nullptr}, options);

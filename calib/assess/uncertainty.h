@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "calib/adjust/joint_adjustment.h"
+#include "core/section_bends.h"
 
 namespace lightstripe {
 
@@ -34,6 +35,11 @@ struct SectionUncertainty {
 
 SectionUncertainty section_uncertainty(const SessionViews& session, const JointAdjustment& adjustment,
                                        const Eigen::Vector3d& up);
+
+/// The independent errors that make up shape_mm, the largest first, until 95 % of its square; as polynomials
+/// of the section, which extrapolate beyond the boards' stripes. None where too few stripe points were used.
+SectionBends section_bends(const SessionViews& session, const JointAdjustment& adjustment,
+                           const Eigen::Vector3d& up);
 
 /// The pixels for which section_uncertainty stands: the used stripe points, at most 150 a laser plane.
 struct SectionSample {

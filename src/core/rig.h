@@ -13,6 +13,7 @@
 #include "core/camera.h"
 #include "core/fields.h"
 #include "core/plane.h"
+#include "core/section_bends.h"
 #include "core/transform.h"
 
 namespace lightstripe {
@@ -66,7 +67,8 @@ struct RigQuality {
   std::map<std::string, double> sigma;  ///< 1-sigma of every parameter by name, e.g. "gauge.camera.fx"
   double section_shape_sigma_mm =
       0;  ///< predicted, rms over the measuring area, after a rigid move; 0 = unknown
-  double section_absolute_sigma_mm = 0;  ///< predicted, rms over the measuring area; 0 = unknown
+  double section_absolute_sigma_mm = 0;         ///< predicted, rms over the measuring area; 0 = unknown
+  std::optional<SectionBends> section_bends{};  ///< the errors that section_shape_sigma_mm sums up
   /// Sections by two halves of the views: difference over prediction; empty where it was not computed.
   std::optional<double> cross_validation_ratio;
   std::string weakest;  ///< the least certain direction, in words

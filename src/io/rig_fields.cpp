@@ -13,6 +13,13 @@
 namespace lightstripe {
 
 template <class V>
+void visit_fields(V&& v, SectionBends& o) {
+  v("centre_mm", o.centre_mm);
+  v("scale_mm", o.scale_mm);
+  v("bends", o.bends);
+}
+
+template <class V>
 void visit_fields(V&& v, SensorQuality& o) {
   v("name", o.name);
   v("board_rms_px", o.board_rms_px);
@@ -33,6 +40,7 @@ void visit_fields(V&& v, QualityLists& o) {
   v("sensors", o.quality.sensors);
   v("section_shape_sigma_mm", o.quality.section_shape_sigma_mm);
   v("section_absolute_sigma_mm", o.quality.section_absolute_sigma_mm);
+  v("section_bends", o.quality.section_bends);
   v("cross_validation_ratio", o.quality.cross_validation_ratio);
   v("weakest", o.quality.weakest);
   v("warnings", o.quality.warnings);

@@ -26,22 +26,32 @@ inline RigState state_of(const Rig& rig) {
   return state;
 }
 
-inline SectionError section_error(const RigState& found, const SyntheticRig& truth,
-                                  const CalibrationObservations& observations) {
-  RigState known;
+inline RigState state_of(const SyntheticRig& truth) {
+  RigState state;
+  for (const auto& sensor : truth.sensors) state.sensors.push_back(sensor);
+  state.motion.emplace();
+  state.motion->direction = truth.direction;
+  return state;
+}
+
+/// Every fifth point of the session's stripes.
+inline std::vector<SectionSample> samples_of(const SyntheticRig& truth,
+                                             const CalibrationObservations& observations) {
   std::vector<SectionSample> samples;
-  for (std::size_t s = 0; s < truth.sensors.size(); ++s) {
-    known.sensors.push_back(truth.sensors[s]);
+  for (std::size_t s = 0; s < truth.sensors.size(); ++s)
     for (const auto& view : observations.sensors[s].views)
       for (std::size_t p = 0; p < view.stripes.size(); ++p)
         for (std::size_t i = 0; i < view.stripes[p].size(); i += 5)
           samples.push_back(
               {static_cast<int>(s), static_cast<int>(p), {view.stripes[p][i].x, view.stripes[p][i].y}});
-  }
-  known.motion.emplace();
-  known.motion->direction = truth.direction;
+  return samples;
+}
+
+inline SectionError section_error(const RigState& found, const SyntheticRig& truth,
+                                  const CalibrationObservations& observations) {
+  const std::vector<SectionSample> samples = samples_of(truth, observations);
   const Eigen::VectorXd a = section_of(found, MotionType::kLinear, {0, -1, 0}, samples);
-  const Eigen::VectorXd b = section_of(known, MotionType::kLinear, {0, -1, 0}, samples);
+  const Eigen::VectorXd b = section_of(state_of(truth), MotionType::kLinear, {0, -1, 0}, samples);
   const double n = std::sqrt(static_cast<double>(samples.size()));
   return {(a - b).norm() / n, (without_rigid_motion(b) * (a - b)).norm() / n};
 }

@@ -48,6 +48,7 @@ Rig random_rig(std::uint64_t seed) {
   rig.quality.sensors = {{"gauge", 0.0812345, 0.05, 20, 19}};
   rig.quality.sigma = {{"gauge.camera.fx", 0.123456789}, {"field.plane.0.offset", 0.01}};
   rig.quality.section_shape_sigma_mm = 0.007;
+  rig.quality.section_bends = SectionBends{{-310, 25}, 100, {std::vector<double>(24, 0.001234)}};
   rig.quality.warnings = {"few boards: tilt them more", "x"};
   return rig;
 }
@@ -86,6 +87,9 @@ TEST(RigFile, ReadsBackWhatWasWritten) {
     EXPECT_EQ(after.quality.sensors[0].stripe_views, 19);
     EXPECT_EQ(after.quality.sigma, before.quality.sigma);
     EXPECT_EQ(after.quality.section_shape_sigma_mm, 0.007);
+    ASSERT_TRUE(after.quality.section_bends);
+    EXPECT_EQ(after.quality.section_bends->centre_mm, before.quality.section_bends->centre_mm);
+    EXPECT_EQ(after.quality.section_bends->bends, before.quality.section_bends->bends);
     EXPECT_THAT(after.quality.warnings, ElementsAre("few boards: tilt them more", "x"));
     EXPECT_EQ(rig_to_yaml(after), text) << "bits changed on the way";
   }
