@@ -27,21 +27,6 @@ struct BenchArguments {
   Overrides overrides;
 };
 
-double steger_time(const MethodTimes& bench) {
-  const auto row = std::find_if(bench.timings.begin(), bench.timings.end(),
-                                [](const auto& t) { return t.method == kOpenCvSteger; });
-  return row->median_ms;
-}
-
-std::string table_row(const MethodTime& t, double steger_ms) {
-  std::string row = fmt::format("  {:<20} {:>10.4f} ms {:>8.1f} x opencv-steger's speed", t.method,
-                                t.median_ms, steger_ms / t.median_ms);
-  if (t.found)
-    row += fmt::format(" {:>6} points, {:.1f} % of steger's, {:.1f} % besides", t.points, 100 * *t.found,
-                       100 * *t.besides);
-  return row;
-}
-
 int run_bench_labelled(const BenchArguments& arguments, const ExtractionOptions& options) {
   constexpr int kMostRepeats = 7, kSpecklePictures = 12;
   const auto scores = bench_labelled(arguments.labels, options, std::min(arguments.repeat, kMostRepeats));
@@ -65,10 +50,9 @@ int run_bench(const BenchArguments& arguments) {
     const MethodTimes bench = bench_methods(image, options, arguments.repeat);
     say(arguments.common, fmt::format("{} ({} x {}, one thread, median of {})", file, image.width,
                                       image.height, arguments.repeat));
-    for (const auto& timing : bench.timings) {
+    for (const auto& timing : bench.timings)
       csv += fmt::format("{},{},{:.6f},{}\n", csv_cell(file), timing.method, timing.median_ms, timing.points);
-      say(arguments.common, table_row(timing, steger_time(bench)));
-    }
+    for (const std::string& line : describe_times(bench)) say(arguments.common, line);
     for (const auto& method : bench.disagreeing) disagreements += fmt::format(" {} in {};", method, file);
   }
   write_file(output, csv);

@@ -26,6 +26,15 @@ void say(const CommonOptions& options, const std::string& line) {
 }
 
 void warn(const std::string& line) { put_line(stderr, "warning: " + line); }
+
+void tell(const CommonOptions& options, const Messages& messages) {
+  for (const Message& message : messages.list)
+    if (message.warning)
+      warn(message.text);
+    else
+      say(options, message.text);
+}
+
 void say_error(const std::string& line) { put_line(stderr, "error: " + line); }
 
 void say_status(const std::string& line) { put_line(stderr, line); }

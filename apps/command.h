@@ -6,6 +6,8 @@
 #include <functional>
 #include <string>
 
+#include "report/message.h"
+
 namespace CLI {
 class App;
 }
@@ -27,6 +29,8 @@ using Command = std::function<int()>;
 void say(const CommonOptions& options, const std::string& line);
 /// "warning: ..." on stderr, also when quiet.
 void warn(const std::string& line);
+/// Says or warns each of them.
+void tell(const CommonOptions& options, const Messages& messages);
 /// "error: ..." on stderr.
 void say_error(const std::string& line);
 /// A line on stderr that is neither.

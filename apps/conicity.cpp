@@ -1,16 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The lightstripe authors
 // SPDX-License-Identifier: Apache-2.0
-#include <fmt/format.h>
-
 #include <memory>
 
 #include "apps/command.h"
 #include "apps/options.h"
 #include "apps/table_style.h"
-#include "core/counted.h"
 #include "io/atomic_file.h"
 #include "pipeline/conicity_job.h"
 #include "report/conicity_report.h"
+#include "report/conicity_text.h"
 
 namespace lightstripe {
 namespace {
@@ -22,28 +20,6 @@ struct ConicityArguments {
   TableStyle style = TableStyle::kPlain;
 };
 
-void summarise(const ConicityArguments& arguments, const Conicity& conicity) {
-  if (conicity.at_3_mm) say(arguments.common, "tan gamma_e at 3 mm: " + conicity_at_3_mm_text(conicity));
-  if (conicity.nonlinearity_per_mm)
-    say(arguments.common,
-        fmt::format("nonlinearity (tan gamma_e at 4 mm less that at 2 mm, over 2 mm; our own "
-                    "definition): {:.4f} per mm",
-                    *conicity.nonlinearity_per_mm));
-  for (const ContactJump& jump : conicity.jumps)
-    say(arguments.common,
-        fmt::format("the contact of the {} wheel jumps at a shift of {:.2f} mm, on the rail from "
-                    "{:.1f} to {:.1f} mm",
-                    jump.side == TrackSide::kLeft ? "left" : "right", jump.shift_mm, jump.from_mm,
-                    jump.to_mm));
-  if (!conicity.note.empty())
-    say(arguments.common,
-        fmt::format("the table ends at {:.1f} mm: {}",
-                    conicity.rows.empty() ? 0.0 : conicity.rows.back().y_mm, conicity.note));
-  if (!conicity.verdict.empty()) say(arguments.common, "verdict: " + conicity.verdict);
-  say(arguments.common,
-      fmt::format("{} -> {}", counted(conicity.rows.size(), "amplitude"), arguments.job.output));
-}
-
 int run(ConicityArguments arguments) {
   arguments.job.output = arguments.common.output.empty() ? "conicity.csv" : arguments.common.output;
   apply_overrides(arguments.job.options, arguments.options);
@@ -53,7 +29,7 @@ int run(ConicityArguments arguments) {
   if (!arguments.job.contacts.empty()) apply_table_style(arguments.job.contacts, arguments.style);
   if (!arguments.job.report.empty())
     write_file(arguments.job.report, conicity_report_html(arguments.job, conicity));
-  summarise(arguments, conicity);
+  tell(arguments.common, describe_conicity(conicity, arguments.job.output));
   return kExitDone;
 }
 

@@ -23,22 +23,8 @@ struct GenerateArguments {
   std::string what, target, references;
 };
 
-/// The board as a drawing to scale; the format follows from the file's name.
-std::string board_text(const GenerateArguments& arguments) {
-  const std::filesystem::path output = arguments.common.output;
-  const std::string kind = output.extension().string();
-  if (!output.empty() && kind != ".svg" && kind != ".pdf")
-    throw Error(output.string(), "is neither .svg nor .pdf", "name the format by the file's ending");
-  const std::string standard = "{type: checkerboard, inner_corners: [11, 8], square: 10}";
-  const std::string given = arguments.target.empty() ? standard : arguments.target;
-  std::string aprilgrid;
-  const Target target = read_target(given, "", &aprilgrid);
-  const BoardDrawing drawing = draw_target(target, aprilgrid);
-  return kind == ".pdf" ? to_pdf(drawing) : to_svg(drawing);
-}
-
 std::string generated(const GenerateArguments& arguments, const CLI::App& app) {
-  if (arguments.what == "board") return board_text(arguments);
+  if (arguments.what == "board") return board_file_text(arguments.target, arguments.common.output);
   if (arguments.what == "conformance") return conformance_page(arguments.references);
   return arguments.what == "man-page" ? man_page(app, LIGHTSTRIPE_VERSION) : bash_completion(app);
 }

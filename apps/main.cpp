@@ -16,6 +16,7 @@
 #include "apps/interrupt.h"
 #include "apps/self_description.h"
 #include "core/error.h"
+#include "io/edit_distance.h"
 
 namespace {
 
@@ -35,22 +36,6 @@ std::string command_line_help(const CLI::App& app) {
   return "`lightstripe " + (parsed.empty() ? std::string() : parsed.front()->get_name() + " ") + "--help`";
 }
 
-/// Levenshtein's distance.
-std::size_t edit_distance(const std::string& a, const std::string& b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t corner = row[0];
-    row[0] = i;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t above = row[j];
-      row[j] = std::min({above + 1, row[j - 1] + 1, corner + (a[i - 1] == b[j - 1] ? 0 : 1)});
-      corner = above;
-    }
-  }
-  return row.back();
-}
-
 /// ", did you mean ...?" where a name is near.
 std::string suggestion(const std::string& given, const std::vector<std::string>& names) {
   constexpr std::size_t kLongest = 64;
@@ -58,7 +43,7 @@ std::string suggestion(const std::string& given, const std::vector<std::string>&
   std::string nearest;
   std::size_t least = given.size() / 3 + 2;
   for (const std::string& name : names)
-    if (const std::size_t distance = edit_distance(given, name); distance < least) {
+    if (const std::size_t distance = lightstripe::edit_distance(given, name); distance < least) {
       least = distance;
       nearest = name;
     }

@@ -4,9 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-#include <map>
-
 #include "apps/command.h"
 #include "apps/options.h"
 #include "apps/progress.h"
@@ -17,10 +14,10 @@
 #include "io/images.h"
 #include "io/output_guard.h"
 #include "pipeline/features_job.h"
-#include "pipeline/measurement_table.h"
 #include "report/cloud_deviation.h"
 #include "report/features_report.h"
 #include "report/measure_report.h"
+#include "report/measure_text.h"
 #include "report/section_drawing.h"
 
 namespace lightstripe {
@@ -72,55 +69,6 @@ void write_plots(const MeasureArguments& arguments, const MeasureJob& job, const
   }
 }
 
-void say_run_out(const CommonOptions& common, const RunOut& run_out) {
-  const auto line = [&](const char* what, const Estimate& estimate) {
-    if (estimate.value)
-      say(common, fmt::format("{} run-out {:.3f} mm, sigma {:.3f}", what, *estimate.value,
-                              estimate.sigma.value_or(0)));
-  };
-  line("radial", run_out.radial);
-  line("axial", run_out.axial);
-}
-
-/// Three digits; what rounds to 0 has no sign.
-std::string three_digits(double value) { return fmt::format("{:.3f}", std::abs(value) < 0.0005 ? 0 : value); }
-
-std::string summary_line(const std::string& name, const Spread& spread) {
-  return fmt::format("{:<18} {:>6} {:>10} {:>10} {:>10}", name, spread.known, three_digits(spread.low),
-                     three_digits(spread.mean), three_digits(spread.high));
-}
-
-void summarise(const MeasureArguments& arguments, const MeasureJob& job, const MeasureResult& result) {
-  const CommonOptions& common = arguments.common;
-  if (result.references.identified()) say(common, "rail: " + result.references.identified()->name);
-  for (const auto& warning : result.warnings) warn(warning);
-  say(common, fmt::format("{:<18} {:>6} {:>10} {:>10} {:>10}", "", "frames", "lowest", "mean", "highest"));
-  for (const std::string& name : estimate_names(job.kind)) {
-    const Spread spread = spread_of(result.rows, name);
-    if (spread.known > 0) say(common, summary_line(name, spread));
-  }
-  for (const char* const name : {"overlap_gap", "gauge", "conicity"}) {
-    const Spread spread = spread_of(result.rows, name);
-    if (spread.known > 0) say(common, summary_line(name, spread));
-  }
-  if (result.run_out) say_run_out(common, *result.run_out);
-  const Spread diameter = spread_of(result.rows, "diameter");
-  if (diameter.known > 0 && !job.rig.empty())
-    say(common,
-        "the diameter's sigma is twice that of the axis' place in the rig's calibration: a board seen over a "
-        "few degrees fixes an "
-        "axis half a metre away only to a millimetre; it is common to all frames");
-  if (job.rig.empty() && job.profiles.extension() == ".csv")
-    say(common, "the sigmas do not count the calibration's error: give --rig rig.yaml");
-  std::map<std::string, int> reasons;
-  for (const MeasuredFrame& row : result.rows)
-    if (row.status != "ok") ++reasons[row.status];
-  for (const auto& [reason, count] : reasons)
-    warn(fmt::format("{} of {}: {}", count, counted(result.rows.size(), "frame"), reason));
-  say(common, fmt::format("{} of {} ok -> {}", result.num_ok, counted(result.rows.size(), "frame"),
-                          job.table.string()));
-}
-
 int run_measure(const MeasureArguments& arguments) {
   const MeasureJob job = job_of(arguments);
   const MeasureResult result = measure(job, progress_line(arguments.common.quiet));
@@ -134,14 +82,8 @@ int run_measure(const MeasureArguments& arguments) {
     write_file(arguments.report, measure_report_html(job, result,
                                                      {arguments.report, arguments.scan,
                                                       link_to(arguments.view, arguments.report)}));
-  summarise(arguments, job, result);
-  if (!result.usable()) return not_usable(result.not_usable);
-  if (result.num_ok == 0)
-    warn(
-        fmt::format("none of {} could be measured completely: what is not known is an empty cell "
-                    "(--require names what you need)",
-                    counted(result.rows.size(), "frame")));
-  return kExitDone;
+  tell(arguments.common, describe_measurement(job, result));
+  return result.usable() ? kExitDone : not_usable(result.not_usable);
 }
 
 /// What a user names in a file instead of a rail or a wheel.

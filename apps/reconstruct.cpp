@@ -8,13 +8,12 @@
 #include "apps/interrupt.h"
 #include "apps/options.h"
 #include "apps/progress.h"
-#include "core/counted.h"
 #include "core/error.h"
-#include "io/images.h"
 #include "io/number_text.h"
 #include "report/growing_view.h"
 #include "report/preview.h"
 #include "report/scan_products.h"
+#include "report/scan_text.h"
 
 namespace lightstripe {
 namespace {
@@ -34,58 +33,6 @@ struct ReconstructArguments {
   std::string filter;
   Overrides extraction;
 };
-
-constexpr std::size_t kMaxShown = 5;
-
-void warn_of_skipped(const ReconstructResult& result, const std::string& output) {
-  const ScanSummary& summary = result.summary;
-  if (summary.pictures_skipped > 0)
-    warn(fmt::format("{} of {} {} skipped", summary.pictures_skipped,
-                     counted(summary.pictures + summary.pictures_skipped, "picture"),
-                     noun_of(summary.pictures_skipped, "is", "are")));
-  for (std::size_t i = 0; i < std::min(kMaxShown, result.skipped.size()); ++i)
-    warn(fmt::format("frame {} skipped: {}", result.skipped[i].frame, result.skipped[i].picture.reason));
-  if (result.skipped.size() > kMaxShown) warn(fmt::format("... and more, all named in {}.run.yaml", output));
-  if (!result.duplicate_pictures.empty())
-    warn(fmt::format("{} a number that another one has and {} left out, the first: {}",
-                     counted(result.duplicate_pictures.size(), "picture has", "pictures have"),
-                     noun_of(result.duplicate_pictures.size(), "is", "are"),
-                     result.duplicate_pictures.front()));
-}
-
-void warn_of_gaps(const ReconstructResult& result) {
-  const ScanSummary& summary = result.summary;
-  for (const std::string& warning : result.warnings) warn(warning);
-  if (!result.without_picture.empty())
-    warn(
-        fmt::format("the table knows {} without a picture, before or behind all pictures: {}; is the "
-                    "recording still being written?",
-                    counted(result.without_picture.count, "frame"), result.without_picture.text()));
-  if (!result.origin.isZero())
-    warn(
-        fmt::format("the cloud's coordinates count from the origin {} {} {} mm, so that 32-bit numbers carry "
-                    "them; the file's header and its .run.yaml name it",
-                    result.origin.x(), result.origin.y(), result.origin.z()));
-  if (!summary.without_position.empty())
-    warn(fmt::format("{} left out: {}",
-                     counted(summary.without_position.count, "frame has no position and is",
-                             "frames have no position and are"),
-                     summary.without_position.text()));
-  if (!summary.interpolated.empty())
-    warn(fmt::format(
-        "{} neighbours': {}",
-        counted(summary.interpolated.count, "frame has no travel of its own, it is interpolated between its",
-                "frames have no travel of their own, it is interpolated between their"),
-        summary.interpolated.text()));
-  if (summary.frames_without_points > 0)
-    warn(fmt::format("{} no stripe", counted(summary.frames_without_points, "frame shows", "frames show")));
-  for (const std::string& sentence : result.outside_range) warn(sentence);
-  if (summary.rays_missed > 0)
-    warn(fmt::format(
-        "{} left out",
-        counted(summary.rays_missed, "stripe point has no certain laser plane, or does not meet it, and is",
-                "stripe points have no certain laser plane, or do not meet it, and are")));
-}
 
 /// "A:B", "A:", ":B".
 void parse_frames(const std::string& text, ReconstructJob& job) {
@@ -121,15 +68,6 @@ ScanProducts products_of(const ReconstructArguments& arguments, const Reconstruc
   if (!arguments.filter.empty()) products.filter = parse_cloud_filter(arguments.filter);
   check_scan_products(job, products);
   return products;
-}
-
-/// Behind what the job does at its end already (a preview).
-void make_products_of(ReconstructJob& job, const ScanProducts& products, std::vector<std::string>& lines) {
-  if (!products.any()) return;
-  job.before_end = [&job, &lines, products, before = job.before_end] {
-    if (before) before();
-    lines = write_scan_products(job, products);
-  };
 }
 
 void add_product_options(CLI::App& command, ReconstructArguments& arguments) {
@@ -180,32 +118,18 @@ int run_reconstruct(const ReconstructArguments& arguments) {
   }
   CloudPreview preview;
   const ScanProducts products = products_of(arguments, job);
-  for (const fs::path& output :
-       {fs::path(arguments.preview), products.view, products.height_map, products.mesh})
-    if (!output.empty()) job.other_outputs.push_back(output);
-  if (!products.height_map.empty())
-    job.other_outputs.push_back(fs::path(products.height_map).replace_extension(".png"));
-  if (!arguments.preview.empty()) draw_preview_of(job, preview, arguments.preview);
-  std::optional<GrowingView> growing;
-  if (job.follow && !arguments.products.view.empty()) {
-    std::vector<std::string> sensors;
-    for (const Sensor& sensor : job.rig.sensors) sensors.push_back(sensor.name);
-    growing.emplace(arguments.products.view, job.cloud.filename().string() + " (growing)", sensors);
-    show_growth(job, *growing);
+  if (!arguments.preview.empty()) {
+    job.other_outputs.emplace_back(arguments.preview);
+    draw_preview_of(job, preview, arguments.preview);
   }
+  std::optional<GrowingView> growing;
+  if (job.follow && !products.view.empty()) show_growth(job, growing.emplace(job, products.view));
   std::vector<std::string> made;
   make_products_of(job, products, made);
   const InterruptWatch interrupt;
   const ReconstructResult result = reconstruct(job, progress_line(arguments.common.quiet), interrupt.token());
-  warn_of_skipped(result, job.cloud.string());
-  warn_of_gaps(result);
+  tell(arguments.common, describe_scan(result, job.cloud));
   if (!result.usable()) return not_usable(result.not_usable);
-  say(arguments.common,
-      fmt::format("{}, {} in {:.2f} s ({:.1f} frames/s) -> {}", counted(result.summary.frames, "frame"),
-                  counted(result.summary.points, "point"), result.seconds,
-                  static_cast<double>(result.frames_now) / result.seconds, job.cloud.string()));
-  for (const SensorLines& lines : result.lines)
-    if (lines.points > 0) say(arguments.common, describe_lines(lines));
   for (const std::string& line : made) say(arguments.common, line);
   return kExitDone;
 }

@@ -4,8 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "apps/command.h"
 #include "apps/options.h"
 #include "apps/progress.h"
@@ -17,6 +15,7 @@
 #include "io/session_file.h"
 #include "pipeline/artefact_job.h"
 #include "report/artefact_report.h"
+#include "report/verify_text.h"
 
 namespace lightstripe {
 namespace {
@@ -33,22 +32,6 @@ struct VerifyArguments {
   ArtefactArguments artefact;
   TableStyle style = TableStyle::kPlain;
 };
-
-std::string describe(const Verification& verification) {
-  std::string text;
-  for (const auto& s : by_sensor(verification))
-    text += fmt::format(
-        "{}: stripe off the board {:.3f} mm, distances along it {:.3f} mm, corners {:.3f} px (rms, {} "
-        "views)\n",
-        s.name, s.plane_rms_mm, s.length_error_mm, s.corner_rms_px, s.views);
-  for (const auto& s : by_seam(verification))
-    text += fmt::format("{} to {}: gap {:.3f} mm, board's place {:.3f} mm (rms, {})\n", s.sensor, s.other,
-                        s.gap_mm, s.centre_gap_mm, counted(s.poses, "pose"));
-  if (verification.travel_rms_mm)
-    text += fmt::format("travel: fixed board within {:.3f} mm rms\n", *verification.travel_rms_mm);
-  while (!text.empty() && text.back() == '\n') text.pop_back();
-  return text;
-}
 
 ArtefactJob artefact_job_of(const VerifyArguments& arguments) {
   const ArtefactArguments& given = arguments.artefact;
@@ -71,19 +54,6 @@ ArtefactJob artefact_job_of(const VerifyArguments& arguments) {
   return job;
 }
 
-std::string describe(const ArtefactCheck& check) {
-  std::string text = fmt::format(
-      "{} of {:g} mm: measured {:.4f} mm, error {:+.4f} mm, sigma {:.4f} mm ({}, scatter {:.4f} mm)",
-      check.artefact, check.size_mm, check.measured_mm, check.error_mm, check.sigma_mm,
-      counted(check.points, "point"), check.scatter_mm);
-  if (check.drift_mm)
-    text +=
-        fmt::format("\nsince the last check: {:+.4f} mm, sigma {:.4f} mm{}", *check.drift_mm,
-                    check.drift_sigma_mm.value_or(0),
-                    std::abs(*check.drift_mm) > 3 * check.drift_sigma_mm.value_or(0) ? ": it drifts" : "");
-  return text;
-}
-
 int run_artefact(const VerifyArguments& arguments) {
   const CommonOptions& common = arguments.common;
   if (arguments.style == TableStyle::kExcel)
@@ -92,7 +62,7 @@ int run_artefact(const VerifyArguments& arguments) {
   const ArtefactJob job = artefact_job_of(arguments);
   const ArtefactResult result = verify_artefact(job, progress_line(common.quiet));
   if (!result.check) return not_usable(result.not_usable);
-  say(common, describe(*result.check));
+  say(common, describe_check(*result.check));
   if (!arguments.artefact.report.empty())
     write_file(arguments.artefact.report, artefact_report_html(result.history));
   say(common, fmt::format("{}; check {} -> {}", result.usable() ? "passed" : "failed", result.history.size(),
@@ -115,7 +85,7 @@ int run_verify(const VerifyArguments& arguments) {
     warn(fmt::format("{} {}: {}", image.sensor, image.image, image.reason));
   if (!result.measured) return not_usable(result.not_usable);
   apply_table_style(job.table, arguments.style);
-  say(common, describe(result.verification));
+  say(common, describe_verification(result.verification));
   say(common, (result.usable() ? "passed; views -> " : "failed; views -> ") + job.table.string());
   return result.usable() ? kExitDone : not_usable(result.not_usable);
 }

@@ -279,9 +279,8 @@ void search(const Run<T>& run) {
 }
 
 template <class T>
-void extract(ImageView<T> whole, const ExtractionOptions& options, ExtractionWorkspace& w,
-             ExtractionResult& result) {
-  const ParsedOptions parsed = parse_options(options);
+void extract(ImageView<T> whole, const ExtractionOptions& options, const ParsedOptions& parsed,
+             ExtractionWorkspace& w, ExtractionResult& result) {
   if (options.polarity == Polarity::kDark && !whole.empty())
     whole = inverted(whole, w.template negative<T>());
   begin(w, result);
@@ -328,7 +327,7 @@ bool track(ImageView<T> image, const ExtractionOptions& options, const TrackRefe
   const bool tracked = !before.empty() && before.width == image.width && before.height == image.height &&
                        can_track(options, parsed) &&
                        extract_in_windows(image, options, parsed, before, w, result);
-  if (!tracked) extract(image, options, w, result);
+  if (!tracked) extract(image, options, parsed, w, result);
   return tracked;
 }
 
@@ -336,25 +335,25 @@ bool track(ImageView<T> image, const ExtractionOptions& options, const TrackRefe
 
 void extract_stripes(ImageView8 image, const ExtractionOptions& options, ExtractionWorkspace& workspace,
                      ExtractionResult& result) {
-  extract(image, options, workspace, result);
+  extract(image, options, parse_options(options), workspace, result);
 }
 
 void extract_stripes(ImageView16 image, const ExtractionOptions& options, ExtractionWorkspace& workspace,
                      ExtractionResult& result) {
-  extract(image, options, workspace, result);
+  extract(image, options, parse_options(options), workspace, result);
 }
 
 ExtractionResult extract_stripes(ImageView8 image, const ExtractionOptions& options) {
   ExtractionWorkspace workspace;
   ExtractionResult result;
-  extract(image, options, workspace, result);
+  extract(image, options, parse_options(options), workspace, result);
   return result;
 }
 
 ExtractionResult extract_stripes(ImageView16 image, const ExtractionOptions& options) {
   ExtractionWorkspace workspace;
   ExtractionResult result;
-  extract(image, options, workspace, result);
+  extract(image, options, parse_options(options), workspace, result);
   return result;
 }
 

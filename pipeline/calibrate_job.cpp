@@ -49,18 +49,14 @@ std::vector<fs::path> inputs_of(const CalibrateJob& job) {
 /// In what channel each sensor's lines were looked for, and how wide they are.
 std::vector<SensorLines> lines_of(const SessionObservations& seen) {
   std::vector<SensorLines> all;
-  for (const auto& [sensor, channel] : seen.channels) {
-    std::vector<double> widths;
+  LineWidths widths(seen.channels.size());
+  for (std::size_t s = 0; s < seen.channels.size(); ++s) {
+    const auto& [sensor, channel] = seen.channels[s];
     for (const SeenPicture& picture : seen.pictures)
       if (picture.sensor == sensor)
-        for (const auto& plane : picture.stripes)
-          for (const StripePoint& point : plane) widths.push_back(point.width);
-    std::sort(widths.begin(), widths.end());
-    const auto quantile = [&](std::size_t percent) {
-      return widths.empty() ? 0.0 : widths[percent * (widths.size() - 1) / 100];
-    };
-    all.push_back(
-        {sensor, channel, static_cast<std::int64_t>(widths.size()), quantile(5), quantile(50), quantile(95)});
+        for (const auto& line : picture.stripes)
+          if (!line.empty()) widths.add(line_width(static_cast<int>(s), line));
+    all.push_back(widths.describe(s, sensor, channel));
   }
   return all;
 }

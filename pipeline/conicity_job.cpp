@@ -9,7 +9,6 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <numbers>
 
 #include "core/counted.h"
 #include "core/error.h"
@@ -17,9 +16,9 @@
 #include "io/atomic_file.h"
 #include "io/csv_reader.h"
 #include "io/nominal_outlines.h"
-#include "io/number_text.h"
 #include "io/output_guard.h"
 #include "measure/profile_formats.h"
+#include "pipeline/conicity_table.h"
 #include "pipeline/measure_input.h"
 #include "pipeline/recorded_profile.h"
 #include "pipeline/run_record.h"
@@ -161,11 +160,6 @@ double top_of(const std::vector<Vector2d>& points) {
   return top;
 }
 
-void append_optional(std::string& out, const std::optional<double>& value, int decimals) {
-  out.push_back(',');
-  if (value) append_decimals(out, *value, decimals);
-}
-
 void check_job(const ConicityJob& job) {
   if (!(job.options.from_mm > 0 && job.options.from_mm <= job.options.to_mm))
     throw Error("--from, --to", "are no range of amplitudes", "give 0 < from <= to");
@@ -236,40 +230,6 @@ std::string conicity_at_3_mm_text(const Conicity& conicity) {
   const double sigma = conicity.at_3_mm_sigma.value_or(0);
   const std::string value = fmt::format("{:.4f}", *conicity.at_3_mm);
   return sigma > 0 ? value + fmt::format(", sigma {:.4f}", std::max(sigma, 1e-4)) : value;
-}
-
-std::string conicity_table(const Conicity& conicity) {
-  std::string out = "y_mm,delta_r_mm,tan_gamma_e,tan_gamma_e_sigma\n";
-  for (const ConicityRow& row : conicity.rows) {
-    append_decimals(out, row.y_mm, 3);
-    append_optional(out, row.delta_r_mm, 6);
-    append_optional(out, row.tan_gamma_e, 6);
-    append_optional(out, row.sigma, 6);
-    out.push_back('\n');
-  }
-  return out;
-}
-
-std::string contact_table(const Conicity& conicity) {
-  std::string out = "shift_mm,roll_mrad,delta_r_mm";
-  for (const char* const side : {"left", "right"})
-    out += fmt::format(",{0}_wheel_y_mm,{0}_rail_y_mm,{0}_slope,{0}_angle_deg,{0}_radius_mm", side);
-  out += ",jump\n";
-  for (const WheelsetPlace& place : conicity.walk.places) {
-    append_decimals(out, place.shift_mm, 3);
-    append_optional(out, 1000 * place.roll_rad, 5);
-    append_optional(out, place.radius_difference_mm(), 6);
-    for (const ContactPoint& contact : place.contact) {
-      append_optional(out, contact.wheel_y_mm, 4);
-      append_optional(out, contact.rail_y_mm, 4);
-      append_optional(out, contact.slope, 6);
-      append_optional(out, std::atan(contact.slope) * 180 / std::numbers::pi, 4);
-      append_optional(out, contact.radius_mm, 5);
-    }
-    const bool jumped = place.contact[0].jumped || place.contact[1].jumped;
-    out += jumped ? ",1\n" : ",0\n";
-  }
-  return out;
 }
 
 }  // namespace lightstripe

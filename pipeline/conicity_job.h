@@ -38,10 +38,4 @@ Conicity run_conicity(const ConicityJob& job);
 /// exact.
 std::string conicity_at_3_mm_text(const Conicity& conicity);
 
-/// y_mm,delta_r_mm,tan_gamma_e,tan_gamma_e_sigma
-std::string conicity_table(const Conicity& conicity);
-/// shift_mm,roll_mrad,delta_r_mm and of each side wheel_y_mm,rail_y_mm,angle_deg,radius_mm, jump (1: the
-/// contact leapt since the row before).
-std::string contact_table(const Conicity& conicity);
-
 }  // namespace lightstripe

@@ -16,6 +16,7 @@
 #include "io/yaml_binding.h"
 #include "measure/measure_track.h"
 #include "measure/profile_formats.h"
+#include "pipeline/conicity_table.h"
 #include "pipeline/measurement_table.h"
 #include "pipeline/measurement_workbook.h"
 #include "pipeline/run_record.h"

@@ -17,11 +17,6 @@ void append_estimate(std::string& out, const Estimate& estimate) {
   if (estimate.value && estimate.sigma) append_decimals(out, *estimate.sigma, 5);
 }
 
-void append_optional(std::string& out, const std::optional<double>& value, int decimals) {
-  out.push_back(',');
-  if (value) append_decimals(out, *value, decimals);
-}
-
 void append_row(std::string& out, const MeasuredFrame& row, const std::string& verdict) {
   append_integer(out, row.frame);
   out.push_back(',');
@@ -59,25 +54,6 @@ std::string measurement_table(const std::vector<MeasuredFrame>& rows, ObjectKind
   for (const std::string& name : extras) out += ',' + name + ',' + name + "_sigma";
   out += ",verdict,missing\n";
   for (std::size_t i = 0; i < rows.size(); ++i) append_row(out, rows[i], verdicts[i]);
-  return out;
-}
-
-std::string track_conicity_table(const std::vector<MeasuredFrame>& rows) {
-  std::string out = "frame,travel,gauge_mm,y_mm,delta_r_mm,tan_gamma_e,tan_gamma_e_sigma\n";
-  for (const MeasuredFrame& row : rows) {
-    const Estimate* const gauge = find_estimate(row, "gauge");
-    for (const ConicityRow& at : row.conicity) {
-      append_integer(out, row.frame);
-      out.push_back(',');
-      append_decimals(out, row.travel, 6);
-      append_optional(out, gauge ? gauge->value : std::nullopt, 4);
-      append_optional(out, at.y_mm, 3);
-      append_optional(out, at.delta_r_mm, 6);
-      append_optional(out, at.tan_gamma_e, 6);
-      append_optional(out, at.sigma, 6);
-      out.push_back('\n');
-    }
-  }
   return out;
 }
 

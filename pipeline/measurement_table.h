@@ -16,9 +16,6 @@ std::string measurement_table(const std::vector<MeasuredFrame>& rows, ObjectKind
                               const std::vector<std::string>& extras,
                               const std::vector<std::string>& verdicts);
 
-/// frame,travel,gauge_mm,y_mm,delta_r_mm,tan_gamma_e,tan_gamma_e_sigma: one row an amplitude of each section.
-std::string track_conicity_table(const std::vector<MeasuredFrame>& rows);
-
 /// "side_wear: gauge face not seen | head_width: ..."; empty where all is known.
 std::string missing_of(const MeasuredFrame& row);
 

@@ -18,35 +18,31 @@ double width_of(int bin) { return kNarrowest * std::exp2((bin + 0.5) / kPerOctav
 
 }  // namespace
 
-void LineWidths::add(const ScannedFrame& frame) {
-  for (const LineWidth& line : frame.lines) {
-    const double bin = std::floor(kPerOctave * std::log2(std::max(line.width_px, kNarrowest) / kNarrowest));
-    counts_[static_cast<std::size_t>(line.sensor)][static_cast<std::size_t>(std::min(bin, kBins - 1.0))] +=
-        line.points;
-  }
+void LineWidths::add(const LineWidth& line) {
+  const double bin = std::floor(kPerOctave * std::log2(std::max(line.width_px, kNarrowest) / kNarrowest));
+  counts_[static_cast<std::size_t>(line.sensor)][static_cast<std::size_t>(std::min(bin, kBins - 1.0))] +=
+      line.points;
 }
 
-std::vector<SensorLines> LineWidths::describe(const Rig& rig) const {
-  std::vector<SensorLines> all;
-  for (std::size_t s = 0; s < counts_.size(); ++s) {
-    SensorLines lines;
-    lines.sensor = rig.sensors[s].name;
-    for (const std::int64_t count : counts_[s]) lines.points += count;
-    const auto quantile = [&](double share) {
-      std::int64_t below = 0;
-      for (int bin = 0; bin < kBins; ++bin) {
-        below += counts_[s][static_cast<std::size_t>(bin)];
-        if (below > 0 && static_cast<double>(below) >= share * static_cast<double>(lines.points))
-          return width_of(bin);
-      }
-      return 0.0;
-    };
-    lines.narrow_px = quantile(0.05);
-    lines.median_px = quantile(0.5);
-    lines.wide_px = quantile(0.95);
-    all.push_back(std::move(lines));
-  }
-  return all;
+SensorLines LineWidths::describe(std::size_t sensor, const std::string& name,
+                                 std::optional<Channel> channel) const {
+  SensorLines lines;
+  lines.sensor = name;
+  lines.channel = channel;
+  for (const std::int64_t count : counts_[sensor]) lines.points += count;
+  const auto quantile = [&](double share) {
+    std::int64_t below = 0;
+    for (int bin = 0; bin < kBins; ++bin) {
+      below += counts_[sensor][static_cast<std::size_t>(bin)];
+      if (below > 0 && static_cast<double>(below) >= share * static_cast<double>(lines.points))
+        return width_of(bin);
+    }
+    return 0.0;
+  };
+  lines.narrow_px = quantile(0.05);
+  lines.median_px = quantile(0.5);
+  lines.wide_px = quantile(0.95);
+  return lines;
 }
 
 std::string describe_lines(const SensorLines& lines) {

@@ -9,7 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "core/rig.h"
 #include "io/images.h"
 #include "reconstruct/scanner.h"
 
@@ -24,13 +23,13 @@ struct SensorLines {
          wide_px = 0;  ///< 5 %, 50 % and 95 % of the points lie on narrower lines
 };
 
-/// Adds up line widths, in any order of frames.
+/// Adds up line widths, in any order of lines.
 class LineWidths {
  public:
   explicit LineWidths(std::size_t sensors) : counts_(sensors) {}
-  void add(const ScannedFrame& frame);
-  /// Sensors without points have widths of 0.
-  std::vector<SensorLines> describe(const Rig& rig) const;
+  void add(const LineWidth& line);
+  /// Widths of 0 for a sensor without points.
+  SensorLines describe(std::size_t sensor, const std::string& name, std::optional<Channel> channel) const;
 
  private:
   static constexpr int kBins = 16 * 10;  // from 0.5 px on

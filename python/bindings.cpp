@@ -10,11 +10,13 @@
 
 #include <fmt/format.h>
 
+#include <exception>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "argument_words.h"
 #include "arrays.h"
 #include "core/counted.h"
 #include "core/error.h"
@@ -245,7 +247,14 @@ PYBIND11_MODULE(_core, module) {
   module.doc() =
       "Line-structured-light 3D scanning: extract laser stripes, triangulate them with a calibrated rig.";
   module.attr("__version__") = LIGHTSTRIPE_VERSION;
-  py::register_exception<Error>(module, "Error", PyExc_RuntimeError);
+  static const py::exception<Error> error_type(module, "Error", PyExc_RuntimeError);
+  py::register_exception_translator([](std::exception_ptr thrown) {
+    try {
+      if (thrown) std::rethrow_exception(thrown);
+    } catch (const Error& error) {
+      PyErr_SetString(error_type.ptr(), in_arguments(error.what()).c_str());
+    }
+  });
   add_rig(module);
   add_extraction(module);
   add_profiles(module);

@@ -17,6 +17,7 @@
 #include <string>
 #include <utility>
 
+#include "argument_words.h"
 #include "arrays.h"
 #include "core/counted.h"
 #include "core/error.h"
@@ -86,10 +87,12 @@ void add_calibrate(py::module_& module) {
   py::class_<CalibrateResult, std::shared_ptr<CalibrateResult>>(module, "Calibration",
                                                                 "What `calibrate` found.")
       .def_property_readonly("usable", &CalibrateResult::usable)
-      .def_readonly("reason", &CalibrateResult::not_usable, "why it is not usable, and what to do")
+      .def_property_readonly(
+          "reason", [](const CalibrateResult& r) { return in_arguments(r.not_usable); },
+          "why it is not usable, and what to do")
       .def_property_readonly(
           "rig", [](const CalibrateResult& r) { return r.calibration.rig; }, "the Rig")
-      .def_readonly("warnings", &CalibrateResult::warnings)
+      .def_property_readonly("warnings", [](const CalibrateResult& r) { return in_arguments(r.warnings); })
       .def_property_readonly("num_images", [](const CalibrateResult& r) { return r.seen.images; })
       .def_property_readonly("num_boards", [](const CalibrateResult& r) { return r.seen.boards_found; })
       .def_property_readonly("rejected", &rejected_of, "list of dicts: sensor, image, reason")
@@ -178,7 +181,8 @@ void add_reconstruct(py::module_& module) {
                                                               "What `reconstruct` made.")
       .def_property_readonly("usable", [](const Reconstruction& r) { return r.result.usable(); })
       .def_property_readonly(
-          "reason", [](const Reconstruction& r) { return r.result.not_usable; }, "why it is not usable")
+          "reason", [](const Reconstruction& r) { return in_arguments(r.result.not_usable); },
+          "why it is not usable")
       .def_property_readonly("num_frames", [](const Reconstruction& r) { return r.result.summary.frames; })
       .def_property_readonly("num_points", [](const Reconstruction& r) { return r.result.summary.points; })
       .def_property_readonly("num_pictures_skipped",
@@ -273,9 +277,9 @@ std::shared_ptr<MeasureResult> run_measure(const fs::path& profiles, const std::
 void add_measure(py::module_& module) {
   py::class_<MeasureResult, std::shared_ptr<MeasureResult>>(module, "Measurements", "What `measure` found.")
       .def_property_readonly("usable", &MeasureResult::usable)
-      .def_readonly("reason", &MeasureResult::not_usable)
+      .def_property_readonly("reason", [](const MeasureResult& r) { return in_arguments(r.not_usable); })
       .def_readonly("num_ok", &MeasureResult::num_ok)
-      .def_readonly("warnings", &MeasureResult::warnings)
+      .def_property_readonly("warnings", [](const MeasureResult& r) { return in_arguments(r.warnings); })
       .def_property_readonly("rows", &rows_of,
                              "list of dicts, the rows of measurements.csv; None where a value is not known. "
                              "pandas.DataFrame(m.rows) makes a table of them.")

@@ -92,13 +92,6 @@ SensorStripes read_and_use(const ScanInput& input, const Rig& rig, std::int64_t 
   return found;
 }
 
-double median_width(const Stripe& stripe) {
-  std::vector<double> widths;
-  widths.reserve(stripe.points.size());
-  for (const StripePoint& p : stripe.points) widths.push_back(p.width);
-  return upper_median(widths);
-}
-
 ScannedFrame scan_frame(const PlacedFrame& placed, const ScanInput& input, const Rig& rig,
                         const FrameExtractor& extract) {
   ScannedFrame out;
@@ -112,8 +105,7 @@ ScannedFrame scan_frame(const PlacedFrame& placed, const ScanInput& input, const
     if (!found.has_picture) continue;
     ++out.pictures;
     for (const Stripe& stripe : found.stripes)
-      if (!stripe.points.empty())
-        out.lines.push_back({sensor, static_cast<int>(stripe.points.size()), median_width(stripe)});
+      if (!stripe.points.empty()) out.lines.push_back(line_width(sensor, stripe.points));
     triangulate_stripes(found.stripes, rig, sensor, placed.position, out.profile);
   }
   if (input.encode) input.encode(out);
@@ -234,6 +226,13 @@ class TrackedScan {
 };
 
 }  // namespace
+
+LineWidth line_width(int sensor, std::span<const StripePoint> points) {
+  std::vector<double> widths;
+  widths.reserve(points.size());
+  for (const StripePoint& p : points) widths.push_back(p.width);
+  return {sensor, static_cast<int>(points.size()), upper_median(widths)};
+}
 
 ScanSummary scan_profiles(const ScanInput& input, const Rig& rig, const StripeExtractor& extract, int threads,
                           const FrameSink& sink) {

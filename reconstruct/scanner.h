@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <span>
 #include <stop_token>
 #include <string>
 #include <vector>
@@ -41,6 +42,8 @@ struct LineWidth {
   int sensor = 0, points = 0;
   double width_px = 0;
 };
+
+LineWidth line_width(int sensor, std::span<const StripePoint> points);
 
 /// One frame on its way to the sink.
 struct ScannedFrame {

@@ -8,6 +8,8 @@
 #include <cmath>
 
 #include "calib/board/marker_cells.h"
+#include "core/error.h"
+#include "io/session_file.h"
 #include "report/page.h"
 
 namespace lightstripe {
@@ -179,6 +181,18 @@ std::string to_pdf(const BoardDrawing& d) {
       fmt::format("xref\n0 {}\n0000000000 65535 f \n{}trailer\n<< /Size {} /Root 1 0 R >>\nstartxref\n{}\n",
                   objects.size() + 1, table, objects.size() + 1, start);
   return text + "%%EOF\n";
+}
+
+std::string board_file_text(const std::string& target, const std::filesystem::path& file) {
+  const std::string kind = file.extension().string();
+  if (!file.empty() && kind != ".svg" && kind != ".pdf")
+    throw Error(file.string(), "is neither .svg nor .pdf", "name the format by the file's ending");
+  const std::string standard = "{type: checkerboard, inner_corners: [11, 8], square: 10}";
+  const std::string given = target.empty() ? standard : target;
+  std::string aprilgrid;
+  const Target board = read_target(given, "", &aprilgrid);
+  const BoardDrawing drawing = draw_target(board, aprilgrid);
+  return kind == ".pdf" ? to_pdf(drawing) : to_svg(drawing);
 }
 
 }  // namespace lightstripe

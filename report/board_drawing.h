@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,10 @@ struct BoardDrawing {
 /// AprilGrid is drawn as Kalibr's, `aprilgrid_file` being its description. Circles of unknown diameter get
 /// half of the distance to their neighbours.
 BoardDrawing draw_target(const Target& target, const std::string& aprilgrid_file = "");
+
+/// The target as a file of the format that its name's ending says, .svg or .pdf (no name: .svg). `target` as
+/// read_target() takes it; empty: a checkerboard of 11 x 8 inner corners, 10 mm.
+std::string board_file_text(const std::string& target, const std::filesystem::path& file);
 
 std::string to_svg(const BoardDrawing& drawing);
 std::string to_pdf(const BoardDrawing& drawing);

@@ -7,6 +7,15 @@
 #include "io/atomic_file.h"
 
 namespace lightstripe {
+namespace {
+
+std::vector<std::string> sensor_names(const Rig& rig) {
+  std::vector<std::string> names;
+  for (const Sensor& sensor : rig.sensors) names.push_back(sensor.name);
+  return names;
+}
+
+}  // namespace
 
 GrowingView::GrowingView(std::filesystem::path page, std::string title, std::vector<std::string> sensors,
                          std::chrono::milliseconds every)
@@ -14,6 +23,9 @@ GrowingView::GrowingView(std::filesystem::path page, std::string title, std::vec
   view_.title = std::move(title);
   view_.sensors = std::move(sensors);
 }
+
+GrowingView::GrowingView(const ReconstructJob& job, const std::filesystem::path& page)
+    : GrowingView(page, job.cloud.filename().string() + " (growing)", sensor_names(job.rig)) {}
 
 void GrowingView::add(const Profile& profile) {
   for (const ProfilePoint& p : profile.points) {

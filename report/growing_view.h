@@ -18,6 +18,8 @@ class GrowingView {
   /// `page`: the file; `every`: time between two pages.
   GrowingView(std::filesystem::path page, std::string title, std::vector<std::string> sensors,
               std::chrono::milliseconds every = std::chrono::seconds(5));
+  /// Of a job's cloud, named by its file.
+  GrowingView(const ReconstructJob& job, const std::filesystem::path& page);
 
   /// Takes the section's points, ever fewer of them as the scan grows, and writes the page when it is due.
   void add(const Profile& profile);

@@ -89,4 +89,16 @@ std::vector<std::string> write_scan_products(const ReconstructJob& job, const Sc
   return lines;
 }
 
+void make_products_of(ReconstructJob& job, const ScanProducts& products, std::vector<std::string>& made) {
+  if (!products.any()) return;
+  for (const std::filesystem::path& output : {products.view, products.height_map, products.mesh})
+    if (!output.empty()) job.other_outputs.push_back(output);
+  if (!products.height_map.empty())
+    job.other_outputs.push_back(std::filesystem::path(products.height_map).replace_extension(".png"));
+  job.before_end = [&job, &products, &made, before = job.before_end] {
+    if (before) before();
+    made = write_scan_products(job, products);
+  };
+}
+
 }  // namespace lightstripe

@@ -28,6 +28,10 @@ struct ScanProducts {
 /// Refuses names whose format is not known, before the work begins.
 void check_scan_products(const ReconstructJob& job, const ScanProducts& products);
 
+/// Makes the job write them at its end, behind what it does there already; none of them may be its input.
+/// `made` gets a line for each. All three have to live as long as the job.
+void make_products_of(ReconstructJob& job, const ScanProducts& products, std::vector<std::string>& made);
+
 /// From the job's finished cloud. Returns what was made, a line each.
 std::vector<std::string> write_scan_products(const ReconstructJob& job, const ScanProducts& products);
 

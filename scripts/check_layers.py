@@ -2,8 +2,9 @@
 # SPDX-FileCopyrightText: 2026 The lightstripe authors
 # SPDX-License-Identifier: Apache-2.0
 """Checks who includes whom against cmake/layers.txt: our own rooms, heavy libraries at their edge, headers that are there; that no
-two headers define a type of one name (a program that links both would mix them up without a word: one definition rule); and that
-docs/architecture.md shows the table as it is.
+two headers define a type of one name (a program that links both would mix them up without a word: one definition rule); that
+docs/architecture.md shows the table as it is; and that each file which may hold an algorithm has a test beside it, or a line in
+tests/beside.txt that says why not.
 
 usage: check_layers.py ROOT [--write]; prints file:line for every complaint, exit code 1 if there is one. --write: brings the table
 in docs/architecture.md up to date.
@@ -18,6 +19,7 @@ TYPE = re.compile(r"^(?:struct|class|enum class) (\w+)(?: final)?(?:\s*:[^{;]*)?
 NO_OPENCV_FILES = re.compile(r"extraction/(follow|kernels|image|lines)/")
 TESTS_OF_EVERYTHING = {"apps", "fuzz", "consumer"}
 GENERATED = {"io/embedded_profiles.h", "report/embedded_pages.h", "tests/test_paths.h"}  # by CMake
+ROOMS_OF_ALGORITHMS = ("calib", "extraction", "measure")
 BEGIN, END = "<!-- layers: begin -->\n", "<!-- layers: end -->\n"
 
 
@@ -121,10 +123,42 @@ def page_is_old(root, table, write):
     return [f"{page.relative_to(root)}: shows another table than cmake/layers.txt; run scripts/check_layers.py . --write"]
 
 
+def excused_files(root):
+    """File -> where it is tested instead ("-": it holds no algorithm), and what is wrong with the table."""
+    table, excused, wrong = root / "tests" / "beside.txt", {}, []
+    for number, line in enumerate(table.read_text(encoding="utf-8").splitlines(), 1):
+        if not line.strip() or line.startswith("#"):
+            continue
+        cells = [cell.strip() for cell in line.split("|")]
+        if len(cells) != 3 or not all(cells):
+            wrong.append(f"tests/beside.txt:{number}: is no row of the table")
+            continue
+        name, tested_in, _ = cells
+        wrong += [f"tests/beside.txt:{number}: {path} does not exist" for path in (name, tested_in)
+                  if path != "-" and not (root / path).is_file()]
+        excused[name] = tested_in
+    return excused, wrong
+
+
+def files_without_test(root):
+    excused, found = excused_files(root)
+    for room in ROOMS_OF_ALGORITHMS:
+        for path in sorted((root / room).rglob("*.cpp")):
+            name = str(path.relative_to(root))
+            tests = [root / "tests" / room / f"{path.stem}{kind}_test.cpp" for kind in ("", ".scene", ".data")]
+            has_test = any(test.is_file() for test in tests)
+            if has_test and name in excused:
+                found.append(f"{name}: has a test beside it; take it out of tests/beside.txt")
+            if not has_test and name not in excused:
+                found.append(f"{name}: lacks {tests[0].relative_to(root)} (or a line in tests/beside.txt that says why)")
+    return found
+
+
 def main():
     root = pathlib.Path(sys.argv[1])
     table = Table(root / "cmake" / "layers.txt")
     found = list(complaints(root, table)) + list(types_defined_twice(root, table))
+    found += files_without_test(root)
     found += page_is_old(root, table, "--write" in sys.argv[2:])
     print("\n".join(found) if found else "layers: clean")
     return 1 if found else 0

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "truth/bench_methods.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -139,6 +141,21 @@ void add_references(ImageView8 image, double sigma, double min_strength, Image8&
   });
 }
 
+double steger_time(const MethodTimes& bench) {
+  const auto row = std::find_if(bench.timings.begin(), bench.timings.end(),
+                                [](const auto& t) { return t.method == kOpenCvSteger; });
+  return row->median_ms;
+}
+
+std::string table_row(const MethodTime& t, double steger_ms) {
+  std::string row = fmt::format("  {:<20} {:>10.4f} ms {:>8.1f} x opencv-steger's speed", t.method,
+                                t.median_ms, steger_ms / t.median_ms);
+  if (t.found)
+    row += fmt::format(" {:>6} points, {:.1f} % of steger's, {:.1f} % besides", t.points, 100 * *t.found,
+                       100 * *t.besides);
+  return row;
+}
+
 }  // namespace
 
 MethodTimes bench_methods(ImageView8 image, ExtractionOptions options, int repeat) {
@@ -157,6 +174,12 @@ MethodTimes bench_methods(ImageView8 image, ExtractionOptions options, int repea
   time_in_rounds(candidates, repeat);
   for (auto& candidate : candidates) bench.timings.push_back(std::move(candidate.timing));
   return bench;
+}
+
+std::vector<std::string> describe_times(const MethodTimes& times) {
+  std::vector<std::string> lines;
+  for (const MethodTime& time : times.timings) lines.push_back(table_row(time, steger_time(times)));
+  return lines;
 }
 
 }  // namespace lightstripe

@@ -4,10 +4,11 @@
 
 #include <Eigen/Geometry>
 #include <Eigen/QR>
+#include <algorithm>
 #include <cmath>
 
 #include "calib/board/board_homography.h"
-#include "calib/observations.h"
+#include "calib/board/seen_corners.h"
 
 namespace lightstripe {
 namespace {
@@ -25,15 +26,11 @@ Eigen::Matrix<double, 10, 1> monomials(const Vector2d& p) {
 /// As many of them as the corners determine well.
 Eigen::Index num_monomials(std::size_t corners) { return corners >= 40 ? 10 : corners >= 20 ? 6 : 0; }
 
-void fit_remainder(BoardMap& map, const std::vector<Vector2d>& corners, const Target& target) {
-  std::vector<int> seen;
-  for (int i = 0; i < target.num_corners(); ++i)
-    if (is_seen(corners[static_cast<std::size_t>(i)])) seen.push_back(i);
-  const Eigen::Index n = static_cast<Eigen::Index>(seen.size()), terms = num_monomials(seen.size());
-  const auto corner = [&](Eigen::Index k) { return target.corner(seen[static_cast<std::size_t>(k)]); };
-  const auto pixel = [&](Eigen::Index k) {
-    return corners[static_cast<std::size_t>(seen[static_cast<std::size_t>(k)])];
-  };
+void fit_remainder(BoardMap& map, const SeenCorners& seen) {
+  const Eigen::Index n = static_cast<Eigen::Index>(seen.pixels.size()),
+                     terms = num_monomials(seen.pixels.size());
+  const auto corner = [&](Eigen::Index k) { return seen.board[static_cast<std::size_t>(k)]; };
+  const auto pixel = [&](Eigen::Index k) { return seen.pixels[static_cast<std::size_t>(k)]; };
   if (terms > 0) {
     Eigen::MatrixXd A(n, terms), b(n, 2);
     for (Eigen::Index k = 0; k < n; ++k) {
@@ -64,26 +61,26 @@ Eigen::Matrix2d BoardMap::derivative(const Vector2d& pixel) const {
   return J;
 }
 
+double misfit(const BoardMap& map, const Target& target) {
+  return map.rms_mm / std::min(target.pitch_x, target.pitch_y);
+}
+
 std::optional<BoardMap> fit_board_map(const std::vector<Vector2d>& corners, const Target& target) {
-  std::vector<Vector2d> pixels, board;
+  const SeenCorners seen = seen_corners(corners, target);
+  if (seen.pixels.size() < 4) return std::nullopt;
   BoardMap map;
   Vector2d low = Vector2d::Constant(1e9), high = -low;
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    if (!is_seen(corners[i])) continue;
-    const Vector2d p = target.corner(static_cast<int>(i));
-    low = low.cwiseMin(corners[i]);
-    high = high.cwiseMax(corners[i]);
-    pixels.push_back(corners[i]);
-    board.push_back(p);
-    map.centre += corners[i];
+  for (const Vector2d& pixel : seen.pixels) {
+    low = low.cwiseMin(pixel);
+    high = high.cwiseMax(pixel);
+    map.centre += pixel;
   }
-  if (pixels.size() < 4) return std::nullopt;
-  map.centre /= static_cast<double>(pixels.size());
-  const auto H = find_homography(pixels, board);
+  map.centre /= static_cast<double>(seen.pixels.size());
+  const auto H = find_homography(seen.pixels, seen.board);
   if (!H) return std::nullopt;
   map.board_from_pixel = *H;
   map.scale_px = std::max(1.0, (high - low).norm());
-  fit_remainder(map, corners, target);
+  fit_remainder(map, seen);
   return map;
 }
 

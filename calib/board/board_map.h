@@ -25,6 +25,13 @@ struct BoardMap {
   Eigen::Matrix2d derivative(const Eigen::Vector2d& pixel) const;
 };
 
+/// Largest misfit() of a board that was found rightly: a lens leaves far less, corners that were mixed up far
+/// more.
+inline constexpr double kMaxMisfit = 0.05;
+
+/// rms of the map's corners in squares, or pitches, of the board; of their shorter side.
+double misfit(const BoardMap& map, const Target& target);
+
 /// Nothing where the corners lie on a line. `corners` in the order of Target::corner; unseen ones are passed
 /// over.
 std::optional<BoardMap> fit_board_map(const std::vector<Eigen::Vector2d>& corners, const Target& target);

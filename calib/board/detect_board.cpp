@@ -14,6 +14,7 @@
 #include "calib/board/detect_circles.h"
 #include "calib/board/observe_board.h"
 #include "calib/board/other_board.h"
+#include "calib/board/search_size.h"
 #include "core/error.h"
 
 namespace lightstripe {
@@ -23,8 +24,6 @@ using Eigen::Vector2d;
 using Corners = std::vector<Vector2d>;
 
 constexpr double kRefineWindow = 0.35;  // half the window of the refinement, in distances to the next corner
-constexpr double kMaxMisfit = 0.05;     // rms of a found grid against a smooth map of the board, in squares
-constexpr int kMaxSearchSizePx = 1600;  // larger pictures are searched at half, a quarter ... of their size
 
 std::optional<Corners> locate_by_opencv(const cv::Mat& gray, const Target& target) {
   std::vector<cv::Point2f> points;
@@ -75,9 +74,9 @@ std::optional<Corners> complete(const CornerGrid& grid) {
 }
 
 /// How badly the corners fit a board that a lens shows, in squares.
-double misfit(const Corners& corners, const Target& target) {
+double misfit_of(const Corners& corners, const Target& target) {
   const auto map = fit_board_map(corners, target);
-  return map ? map->rms_mm / std::min(target.pitch_x, target.pitch_y) : 1e9;
+  return map ? misfit(*map, target) : 1e9;
 }
 
 /// The part of the grid that is the target: links may run on into another pattern beside it, but then only
@@ -90,7 +89,7 @@ std::optional<Corners> target_in(const CornerGrid& grid, const Target& target) {
     for (int left = 0; left + target.columns <= grid.columns; ++left) {
       auto corners = complete(part(grid, left, top, target.columns, target.rows));
       if (!corners) continue;
-      const double fit = misfit(*corners, target);
+      const double fit = misfit_of(*corners, target);
       second = std::min(second, std::max(fit, smallest));
       if (fit >= smallest) continue;
       smallest = fit;
@@ -178,18 +177,6 @@ bool in_view(const cv::Mat& gray, const Corners& corners) {
   });
 }
 
-cv::Mat shrunk(const cv::Mat& gray, int factor) {
-  cv::Mat small;
-  if (factor > 1) cv::resize(gray, small, {}, 1.0 / factor, 1.0 / factor, cv::INTER_AREA);
-  return factor > 1 ? small : gray;
-}
-
-/// Corners of the shrunk picture in pixels of the full one (pixel centres are integers).
-Corners enlarged(Corners corners, int factor) {
-  for (auto& corner : corners) corner = (corner.array() + 0.5) * factor - 0.5;
-  return corners;
-}
-
 /// Whether the squares go on beyond one of the corners' sides: then they are a part of a larger board.
 bool goes_on(const Corners& corners, const Target& target, const std::vector<SaddleCorner>& saddles) {
   constexpr double kNear = 0.2, kMost = 0.7;  // of the step; of the side's corners
@@ -253,13 +240,12 @@ Located locate(const cv::Mat& gray, int factor, const Target& target) {
 }
 
 BoardDetection detect_checkerboard(const cv::Mat& gray, const Target& target) {
-  int factor = 1;
-  while (std::max(gray.cols, gray.rows) / factor > kMaxSearchSizePx) factor *= 2;
+  const int factor = search_factor(gray);
   const Located located = locate(gray, factor, target);
   BoardDetection result;
   if (located.corners) {
     const Corners corners = refined(gray, *located.corners, target);
-    result.found = in_view(gray, corners) && misfit(corners, target) < kMaxMisfit &&
+    result.found = in_view(gray, corners) && misfit_of(corners, target) < kMaxMisfit &&
                    has_squares_beyond(gray, corners, target);
     if (result.found) result.corners = in_unique_order(gray, corners, target);
   }

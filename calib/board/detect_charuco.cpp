@@ -13,7 +13,7 @@
 
 #include "calib/board/aruco_dictionary.h"
 #include "calib/board/board_reasons.h"
-#include "calib/observations.h"
+#include "calib/board/seen_corners.h"
 #include "core/counted.h"
 #include "core/error.h"
 
@@ -26,16 +26,13 @@ constexpr int kMinCorners = 8;
 constexpr double kRefineWindow = 0.8;  // half the window, as a share of the gap between corner and markers
 
 bool on_one_line(const std::vector<Vector2d>& corners, const Target& target) {
+  const std::vector<Vector2d> seen = seen_corners(corners, target).board;
+  const double count = std::max(1.0, static_cast<double>(seen.size()));
   Vector2d mean = Vector2d::Zero();
-  int count = 0;
-  for (int i = 0; i < target.num_corners(); ++i)
-    if (is_seen(corners[static_cast<std::size_t>(i)])) mean += target.corner(i), ++count;
-  mean /= std::max(1, count);
+  for (const Vector2d& p : seen) mean += p / count;
   Eigen::Matrix2d scatter = Eigen::Matrix2d::Zero();
-  for (int i = 0; i < target.num_corners(); ++i)
-    if (is_seen(corners[static_cast<std::size_t>(i)]))
-      scatter += (target.corner(i) - mean) * (target.corner(i) - mean).transpose();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(scatter / std::max(1, count));
+  for (const Vector2d& p : seen) scatter += (p - mean) * (p - mean).transpose() / count;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(scatter);
   return eigen.eigenvalues()[0] <
          0.05 * std::min(target.pitch_x, target.pitch_y) * std::min(target.pitch_x, target.pitch_y);
 }

@@ -16,6 +16,7 @@
 
 #include "calib/board/board_map.h"
 #include "calib/board/board_reasons.h"
+#include "calib/board/search_size.h"
 #include "core/robust.h"
 
 namespace lightstripe {
@@ -23,9 +24,6 @@ namespace {
 
 using Eigen::Vector2d;
 using Corners = std::vector<Vector2d>;
-
-constexpr double kMaxMisfit = 0.05;     // rms against a smooth map of the board, in pitches
-constexpr int kMaxSearchSizePx = 1600;  // larger pictures are searched at half, a quarter ... of their size
 
 cv::Ptr<cv::SimpleBlobDetector> blob_detector(const cv::Mat& gray, const Target& target, bool dark) {
   cv::SimpleBlobDetector::Params params;
@@ -56,7 +54,7 @@ std::optional<Corners> locate_circles(const cv::Mat& gray, const Target& target,
 /// Of the four ways to list the grid the right-handed one that fits the board best.
 std::optional<Corners> in_unique_order(const Corners& corners, const Target& target) {
   std::optional<Corners> best;
-  double smallest = kMaxMisfit * std::min(target.pitch_x, target.pitch_y);
+  double smallest = kMaxMisfit;
   for (const bool mirrored : {false, true}) {
     for (const bool reversed : {false, true}) {
       Corners listed = corners;
@@ -65,8 +63,9 @@ std::optional<Corners> in_unique_order(const Corners& corners, const Target& tar
           std::reverse(row, row + target.columns);
       if (reversed) std::reverse(listed.begin(), listed.end());
       const auto map = fit_board_map(listed, target);
-      if (!map || map->rms_mm >= smallest || map->derivative(map->centre).determinant() <= 0) continue;
-      smallest = 0.7 * map->rms_mm;  // symmetric boards: the first of two equal ones stays
+      if (!map || misfit(*map, target) >= smallest || map->derivative(map->centre).determinant() <= 0)
+        continue;
+      smallest = 0.7 * misfit(*map, target);  // symmetric boards: the first of two equal ones stays
       best = std::move(listed);
     }
   }
@@ -145,14 +144,12 @@ double refine(const cv::Mat& gray, const Target& target, Corners& corners) {
 
 BoardDetection detect_circles(const cv::Mat& gray, const Target& target) {
   BoardDetection result;
-  int factor = 1;
-  while (std::max(gray.cols, gray.rows) / factor > kMaxSearchSizePx) factor *= 2;
-  cv::Mat small = gray;
-  if (factor > 1) cv::resize(gray, small, {}, 1.0 / factor, 1.0 / factor, cv::INTER_AREA);
+  const int factor = search_factor(gray);
+  const cv::Mat small = shrunk(gray, factor);
   auto located = locate_circles(small, target, true);
   if (!located) located = locate_circles(small, target, false);
   if (located) {
-    for (auto& corner : *located) corner = (corner.array() + 0.5) * factor - 0.5;
+    *located = enlarged(std::move(*located), factor);
     result.circle_mm = refine(gray, target, *located);
     if (const auto listed = in_unique_order(*located, target); listed && result.circle_mm > 0) {
       result.found = true;

@@ -71,7 +71,7 @@ bool fits_in(int columns, int rows, const Target& target) {
 }  // namespace
 
 bool is_other_board(const cv::Mat& gray, const CornerGrid& grid, const Target& target) {
-  constexpr double kMissing = 0.02, kMaxMisfit = 0.05;  // of the corners; rms in squares
+  constexpr double kMissing = 0.02;  // of the corners
   const int c = grid.columns, r = grid.rows;
   if ((c == target.columns && r == target.rows) || (r == target.columns && c == target.rows)) return false;
   if (grid.count() < (1 - kMissing) * c * r || c < 3 || r < 3) return false;
@@ -80,7 +80,7 @@ bool is_other_board(const cv::Mat& gray, const CornerGrid& grid, const Target& t
   Target seen;
   seen.columns = c, seen.rows = r, seen.pitch_x = seen.pitch_y = 1;
   const auto map = fit_board_map(corners, seen);
-  if (!map || map->rms_mm > kMaxMisfit) return false;
+  if (!map || misfit(*map, seen) > kMaxMisfit) return false;
   if (!fits_in(c, r, target) && !fits_in(r, c, target)) return true;  // the target is a part of it at most
   const auto sides = sides_of(corners, c, r);
   return std::all_of(sides.begin(), sides.end(), [&](const Side& side) {

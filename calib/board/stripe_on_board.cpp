@@ -12,7 +12,6 @@
 #include "calib/board/board_edges.h"
 #include "calib/board/board_map.h"
 #include "calib/board/board_shift.h"
-#include "calib/board/laser_light.h"
 #include "calib/board/laser_look.h"
 #include "calib/board/observe_board.h"
 #include "calib/start/stripe_planes.h"
@@ -20,6 +19,8 @@
 #include "core/error.h"
 #include "core/random.h"
 #include "core/robust.h"
+#include "extraction/extract_stripes.h"
+#include "extraction/image/background.h"
 
 namespace lightstripe {
 namespace {

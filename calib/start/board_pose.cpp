@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "calib/board/board_homography.h"
-#include "calib/observations.h"
+#include "calib/board/seen_corners.h"
 #include "calib/start/refine_views.h"
 
 namespace lightstripe {
@@ -13,12 +13,12 @@ namespace lightstripe {
 std::optional<Rigid3> board_pose(const Camera& camera, const Target& target,
                                  const std::vector<Eigen::Vector2d>& corners) {
   std::vector<Eigen::Vector2d> rays, board;
-  for (int i = 0; i < target.num_corners(); ++i) {
-    const auto& corner = corners[static_cast<std::size_t>(i)];
-    const auto ray = is_seen(corner) ? unproject(camera, corner) : std::nullopt;
+  const SeenCorners seen = seen_corners(corners, target);
+  for (std::size_t i = 0; i < seen.pixels.size(); ++i) {
+    const auto ray = unproject(camera, seen.pixels[i]);
     if (!ray) continue;
     rays.emplace_back(ray->x(), ray->y());
-    board.push_back(target.corner(i));
+    board.push_back(seen.board[i]);
   }
   const auto H = find_homography(board, rays);
   if (!H) return std::nullopt;
@@ -31,13 +31,12 @@ double corner_rms_px(const Camera& camera, const Target& target, const Rigid3& c
                      const std::vector<Eigen::Vector2d>& corners) {
   double sum = 0;
   int count = 0;
-  for (int i = 0; i < target.num_corners(); ++i) {
-    const auto& corner = corners[static_cast<std::size_t>(i)];
-    if (!is_seen(corner)) continue;
-    const Eigen::Vector2d p = target.corner(i);
+  const SeenCorners seen = seen_corners(corners, target);
+  for (std::size_t i = 0; i < seen.pixels.size(); ++i) {
+    const Eigen::Vector2d& p = seen.board[i];
     const auto q = project(camera, cam_from_board * Eigen::Vector3d(p.x(), p.y(), 0));
     if (!q) continue;
-    sum += (*q - corner).squaredNorm();
+    sum += (*q - seen.pixels[i]).squaredNorm();
     ++count;
   }
   return count > 0 ? std::sqrt(sum / count) : 0;

@@ -11,6 +11,7 @@
 
 #include "calib/adjust/board_surface.h"
 #include "calib/board/board_homography.h"
+#include "calib/board/seen_corners.h"
 #include "calib/start/board_pose.h"
 #include "calib/start/initial_values.h"
 #include "calib/start/refine_views.h"
@@ -24,24 +25,8 @@ constexpr double kMinTiltDeg =
     3;  // of the boards against their mean direction; below it f and the range are one
 constexpr double kMaxViewErrorPx = 3;  // a view beyond it has corners in a wrong order, or another board
 
-/// The seen corners in the image, and the same on the board.
-struct Corners {
-  std::vector<Eigen::Vector2d> pixels, board;
-};
-
-Corners seen_corners(const SessionView& view, const Target& target) {
-  Corners out;
-  for (int i = 0; i < target.num_corners(); ++i) {
-    const Eigen::Vector2d& pixel = view.corners[static_cast<std::size_t>(i)];
-    if (!is_seen(pixel)) continue;
-    out.pixels.push_back(pixel);
-    out.board.push_back(target.corner(i));
-  }
-  return out;
-}
-
 std::optional<Eigen::Matrix3d> pixel_from_board(const SessionView& view, const Target& target) {
-  const Corners corners = seen_corners(view, target);
+  const SeenCorners corners = seen_corners(view.corners, target);
   return find_homography(corners.board, corners.pixels);
 }
 

@@ -19,17 +19,23 @@ struct Ridge {
   RidgeClarity clarity = RidgeClarity::kClear;
 };
 
-/// On the ridge of a single line the curvature along it vanishes. `noise`: standard deviation of the
-/// curvatures.
-bool is_single_line(const HessianAxes& axes, double noise) {
-  return axes.across < 0 && std::abs(axes.along) <= -0.15 * axes.across + 2.5 * noise;
+/// Standard deviation of a curvature where the one across the line is `across`.
+double noise_of(const RidgeLimits& limits, double across, bool grain_counts) {
+  return grain_counts && limits.grain > 0 ? std::hypot(limits.strength_noise, limits.grain * across)
+                                          : limits.strength_noise;
+}
+
+/// On the ridge of a single line the curvature along it vanishes.
+bool is_single_line(const HessianAxes& axes, const RidgeLimits& limits, bool grain_counts) {
+  return axes.across < 0 &&
+         std::abs(axes.along) <= -0.15 * axes.across + 2.5 * noise_of(limits, axes.across, grain_counts);
 }
 
 /// The surface's own direction where one line alone makes it, else the predicted one.
-std::optional<Ridge> ridge_at(const Derivatives& d, const RidgeSearch& search, double noise) {
+std::optional<Ridge> ridge_at(const Derivatives& d, const RidgeSearch& search, const RidgeLimits& limits) {
   const HessianAxes axes = hessian_axes(d);
   const Direction& predicted = search.direction;
-  if (is_single_line(axes, noise)) {
+  if (is_single_line(axes, limits, search.grain_counts)) {
     Ridge r{{-axes.normal_y, axes.normal_x}, axes.normal_x, axes.normal_y, axes.across, RidgeClarity::kClear};
     if (r.direction.dot(predicted) < 0) r.direction = {-r.direction.x, -r.direction.y};
     if (r.direction.dot(predicted) < search.least_cosine) return std::nullopt;
@@ -41,7 +47,8 @@ std::optional<Ridge> ridge_at(const Derivatives& d, const RidgeSearch& search, d
   // A line at angle a to the predicted direction has a mixed derivative of a times its curvature.
   const double mixed = d.dxx * r.normal_x * predicted.x + d.dyy * r.normal_y * predicted.y +
                        d.dxy * (r.normal_x * predicted.y + r.normal_y * predicted.x);
-  if (std::abs(mixed) > -0.12 * r.curvature + 2.0 * noise) r.clarity = RidgeClarity::kDisturbed;
+  if (std::abs(mixed) > -0.12 * r.curvature + 2.0 * noise_of(limits, r.curvature, true))
+    r.clarity = RidgeClarity::kDisturbed;
   return r;
 }
 
@@ -72,7 +79,7 @@ std::optional<RidgePlace> RidgeFinder<T>::find(const RidgeSearch& search) const 
     const PhasedPosition px = to_phase(x), py = to_phase(y);
     const Derivatives d =
         evaluate_derivatives(image, px, py, kernels, search.direction.x, search.direction.y, border_window);
-    const auto ridge = ridge_at(d, search, limits.strength_noise);
+    const auto ridge = ridge_at(d, search, limits);
     if (!ridge) return std::nullopt;
     // The stripe's own grey level, undone what smoothing at its scale takes from a Gaussian's top.
     const double level = d.value - 0.828 * kernels.sigma * kernels.sigma * ridge->curvature;
@@ -101,7 +108,7 @@ std::optional<RidgePlace> RidgeFinder<T>::first_point(int seed_x, int seed_y) co
   for (int step = 0; step < 8; ++step) {
     const Derivatives d = evaluate_derivatives(image, to_phase(x), to_phase(y), kernels, 0, 0, border_window);
     const HessianAxes axes = hessian_axes(d);
-    if (!is_single_line(axes, limits.strength_noise) || -axes.across < 0.5 * limits.start_strength)
+    if (!is_single_line(axes, limits, true) || -axes.across < 0.5 * limits.start_strength)
       return std::nullopt;
     const double t =
         std::clamp(ridge_offset(d, axes.normal_x, axes.normal_y, axes.across), -kernels.sigma, kernels.sigma);

@@ -64,6 +64,7 @@ struct RidgeSearch {
   double least_cosine = 0.7;  ///< of the turn
   double least_strength = 0;
   bool clear_only = false;
+  bool grain_counts = true;  ///< a grained line may look less like a line
 };
 
 template <class T>

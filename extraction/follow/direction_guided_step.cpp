@@ -146,6 +146,7 @@ std::optional<RidgePlace> Follower<T>::around_corner(const Tip& tip, const Ridge
                              -kTuning.sharp_corner_angle}) {
     RidgeSearch search = predict(tip, tip.direction.rotated(std::cos(angle), std::sin(angle)), 1, 0);
     search.clear_only = true;
+    search.grain_counts = false;  // grains lie in every direction
     search.least_strength = std::max(search.least_strength, kTuning.corner_strength * tip.recent_strength);
     if (!is_free(search.x, search.y)) continue;
     const auto found = finder_.find(search);

@@ -24,6 +24,11 @@ struct FollowTuning {
   /// `coarse_grain` on (speckle of contrast 0.3 and more) twice that, which lowers the scatter by half and
   /// holds the line together over dark grains.
   double fine_grain = 0.05, coarse_grain = 0.13;
+  /// Power of a kernel's scale by which it falls, near the stripe's own.
+  double grain_falls = 1.2;
+  /// Of the picture's main line's strength, at the stripe's own scale: from such a grain on, single grains
+  /// may pass for lines and the line for none.
+  double main_grain = 0.1;
   /// Sigma, px: below it a line's strength varies with its place between the pixels, which is no grain.
   double thinnest_grained = 1.3;
   /// Of the brightest pixel: from here on a point may be clipped, and its strength tells nothing of grain.

@@ -8,6 +8,7 @@
 #include <span>
 
 #include "extraction/follow/direction_guided_between.h"
+#include "extraction/follow/line_looks.h"
 #include "extraction/kernels/width_rule.h"
 #include "extraction/lines/line_measure.h"
 
@@ -40,6 +41,7 @@ class LineFinder {
   };
 
   void prepare();
+  void begin();
   std::uint8_t& tried(int level, int x, int y);
   std::size_t group_for(double sigma, double tolerance);
   std::optional<Followed> follow(std::size_t group, int x, int y);
@@ -52,9 +54,9 @@ class LineFinder {
     const auto columns = static_cast<std::size_t>(search_.image.width / 4 + 1);
     return w_.blocked[static_cast<std::size_t>(y / 4) * columns + static_cast<std::size_t>(x / 4)];
   }
-  Followed at_own_scale(const Followed& line);
-  double broader_in_grain(const Followed& line, double width_scale);
-  bool is_clipped(std::span<const StripePoint> points) const;
+  Followed at_own_scale(const Followed& line, double least_broader = 1);
+  double grain_of(const Followed& line, double width_scale);
+  void allow_for_grain(std::size_t group, double weight, double grain, double broader);
   double length(const Followed& line) const { return static_cast<double>(line.range.size()); }
   std::span<const StripePoint> points_of(const Followed& line) const {
     return {groups_.all[line.group].lines.points.data() + line.range.begin, line.range.size()};
@@ -63,9 +65,11 @@ class LineFinder {
     w_.patience.add_futile(search_.tuning.futile_line +
                            length(line) / groups_.all[line.group].kernels->sigma);
   }
-  double height(const Followed& line) const;
-  bool runs_beside_another(const Followed& line) const;
-  bool is_edge(const Followed& line) const;
+  double height(const Followed& line) const {
+    return mean_strength(points_of(line)) / groups_.all[line.group].kernels->matched_strength();
+  }
+  double weight(const Followed& line) const { return length(line) * height(line); }
+  void note_grain(const Followed& line);
   void keep_or_reject(const Followed& line, int seed_level);
   bool is_untried(const ScaleSeed& seed);
   void try_seed(const ScaleSeed& seed);
@@ -81,6 +85,8 @@ class LineFinder {
   MaskLabels labels_;
   double strongest_ = 0;  ///< grey levels, height of the strongest line so far
   int lines_ = 0;
+  double heaviest_ = 0;  ///< px times grey levels: the largest length times height of a line so far
+  double grained_sigma_ = 0, grain_ = 0;  ///< of the kernels of a grained line; 0: none yet
 };
 
 template <class T>
@@ -91,20 +97,29 @@ void LineFinder<T>::prepare() {
     build_pyramid(search_.image, search_.noise, w_.pyramid);
   w_.found.clear();
   const SearchWindows* windows = search_.windowed != nullptr ? search_.windowed->seeds : nullptr;
-  for (int level = 0; level < w_.pyramid.count; ++level) {
+  for (int level = 0; level < w_.pyramid.count; ++level)
     if (search_.windowed == nullptr || level <= search_.windowed->coarsest)
       collect_scale_seeds(w_.pyramid, level, {search_.brightest, windows}, following_.seeds, w_.found);
+  sort_by_contrast(w_.found, w_.seeds);
+}
+
+/// Nothing is tried yet.
+template <class T>
+void LineFinder<T>::begin() {
+  for (int level = 0; level < w_.pyramid.count; ++level) {
     const ImageView<T> image = w_.pyramid.levels[static_cast<std::size_t>(level)];
     w_.tried[static_cast<std::size_t>(level)].assign(
         static_cast<std::size_t>(image.width / 4 + 1) * static_cast<std::size_t>(image.height / 4 + 1), 0);
   }
-  sort_by_contrast(w_.found, w_.seeds);
   w_.blocked.assign(static_cast<std::size_t>(search_.image.width / 4 + 1) *
                         static_cast<std::size_t>(search_.image.height / 4 + 1),
                     0);
   following_.mask.reset(search_.image.width, search_.image.height, 1);
   w_.patience.reset(search_.image.width, search_.image.height, search_.tuning);
   groups_.count = 0;
+  labels_ = {};
+  strongest_ = heaviest_ = 0;
+  lines_ = 0;
 }
 
 /// The cell of 4 x 4 pixels of a level.
@@ -191,56 +206,60 @@ typename LineFinder<T>::Followed LineFinder<T>::put_back(Followed line) {
   return line;
 }
 
-/// A good part of the points lies on the picture's brightest pixels.
+/// How much a line's strength varies by the grain of its light, as a share of it. `width_scale`: the scale
+/// that the stripe's width asks for.
 template <class T>
-bool LineFinder<T>::is_clipped(std::span<const StripePoint> points) const {
-  std::size_t clipped = 0;
-  for (const StripePoint& p : points) {
-    const int x = std::clamp(static_cast<int>(p.x + 0.5), 0, search_.image.width - 1),
-              y = std::clamp(static_cast<int>(p.y + 0.5), 0, search_.image.height - 1);
-    clipped += search_.image(x, y) >= search_.tuning.clipped_level * search_.brightest ? 1U : 0U;
-  }
-  return 4 * clipped > points.size();
-}
-
-/// Times the scale that the width asks for. A kernel of the stripe's own width is best in the camera's noise,
-/// which it takes in from beside the stripe; the grain of speckle is in the stripe's own light, and the more
-/// of it a kernel averages the better.
-template <class T>
-double LineFinder<T>::broader_in_grain(const Followed& line, double width_scale) {
+double LineFinder<T>::grain_of(const Followed& line, double width_scale) {
   const ScaleGroup& g = groups_.all[line.group];
-  const std::span<const StripePoint> points(g.lines.points.data() + line.range.begin, line.range.size());
+  const std::span<const StripePoint> points = points_of(line);
   const double bin = 1 << g.level, noise = w_.pyramid.noise[static_cast<std::size_t>(g.level)] *
                                            g.binned_kernels->curvature_gain / (bin * bin);
-  const FollowTuning& t = search_.tuning;
   // The strength of a clipped bar varies with its outline, that of a thin line with its place between pixels.
-  if (width_scale < t.thinnest_grained || is_clipped(points)) return 1;
-  const double grain = grain_of_line(points, g.kernels->sigma, noise, w_.values);
-  return std::clamp(1 + (grain - t.fine_grain) / (t.coarse_grain - t.fine_grain), 1.0, 2.0);
+  if (width_scale < search_.tuning.thinnest_grained ||
+      is_clipped(search_.image, points, search_.tuning.clipped_level * search_.brightest))
+    return 0;
+  return grain_of_line(points, g.kernels->sigma, noise, w_.values);
 }
 
-/// The line followed again at its own scale, where that differs and does not
-/// lose much of it.
+/// Where the picture's main line is coarsely grained, so much is allowed to its kernels: the grain varies the
+/// curvature along a line as much as that across it.
 template <class T>
-typename LineFinder<T>::Followed LineFinder<T>::at_own_scale(const Followed& line) {
+void LineFinder<T>::allow_for_grain(std::size_t group, double weight, double grain, double broader) {
+  const FollowTuning& t = search_.tuning;
+  if (grain < t.main_grain || weight < heaviest_) return;
+  RidgeLimits& limits = groups_.all[group].limits;
+  limits.grain = std::max(limits.grain, grain / std::pow(broader, t.grain_falls));
+}
+
+/// The line followed again at its own scale, where that differs and does not lose much of it.
+template <class T>
+typename LineFinder<T>::Followed LineFinder<T>::at_own_scale(const Followed& line, double least_broader) {
   const LineSet& lines = groups_.all[line.group].lines;
-  const std::span<const StripePoint> points(lines.points.data() + line.range.begin, line.range.size());
+  const std::span<const StripePoint> points = points_of(line);
   const double used = groups_.all[line.group].kernels->sigma;
   const double farthest = std::exp2(search_.tuning.farthest_scale);
   const double width_scale = scale_of_line(w_.pyramid, kernels_, points, used);
-  const double broader = broader_in_grain(line, width_scale);
+  const double seen = grain_of(line, width_scale);
+  const double grain = seen * std::pow(used / width_scale, search_.tuning.grain_falls);
+  const double broader = broader_in_grain(search_.tuning, grained_sigma_ > 0 ? grain : seen);
+  if (broader < least_broader) return line;
   const double own = std::clamp(broader * width_scale, used / farthest, used * farthest);
   const bool first_of_its_scale = lines.lines.size() == 1;
   const double tolerance = first_of_its_scale ? search_.tuning.first_scale : search_.tuning.refollow_scale;
-  if (std::abs(std::log2(own / used)) <= tolerance) return line;
+  if (std::abs(std::log2(own / used)) <= tolerance) {
+    allow_for_grain(line.group, weight(line), grain, broader);
+    return line;
+  }
   // Where a dark grain hides the line from the broader kernels, another place shows it.
   const std::array<StripePoint, 3> places{points[points.size() / 2], points[points.size() / 4],
                                           points[3 * points.size() / 4]};
   const bool much_finer = std::log2(used / own) > search_.tuning.much_finer_scale;
   const double least =
       (much_finer ? search_.tuning.kept_length_of_finer : search_.tuning.kept_length) * length(line);
+  const double weight_before = weight(line);
   lift(line);
   const std::size_t group = group_for(own, 0.5 * tolerance);
+  allow_for_grain(group, weight_before, grain, broader);
   for (const StripePoint& p : places) {
     const auto again = follow(group, nearest_pixel(p.x), nearest_pixel(p.y));
     if (again && length(*again) >= least) return *again;
@@ -250,69 +269,28 @@ typename LineFinder<T>::Followed LineFinder<T>::at_own_scale(const Followed& lin
   return put_back(line);
 }
 
+/// A grained line that outweighs those before it: they may have been grains of it.
 template <class T>
-double LineFinder<T>::height(const Followed& line) const {
+void LineFinder<T>::note_grain(const Followed& line) {
   const ScaleGroup& g = groups_.all[line.group];
-  double sum = 0;
-  for (std::size_t i = line.range.begin; i < line.range.end; ++i) sum += g.lines.points[i].strength;
-  return sum / length(line) / g.kernels->matched_strength();
-}
-
-/// The light falls on one side only. The filter drops such a line later, by its
-/// own profiles; here it tells how much of the search is in vain.
-template <class T>
-bool LineFinder<T>::is_edge(const Followed& line) const {
-  constexpr double kAside = 2.6,
-                   kLeastFlanks = 0.3;  // sigma; of the smaller over the larger drop
-  const ScaleGroup& g = groups_.all[line.group];
-  const double reach = kAside * g.kernels->sigma;
-  const std::size_t step = std::max<std::size_t>(1, line.range.size() / 24);
-  std::size_t looked_at = 0, one_sided = 0;
-  const auto grey = [&](const StripePoint& p, double aside) {
-    const int x = std::clamp(nearest_pixel(p.x + aside * p.normal_x), 0, search_.image.width - 1),
-              y = std::clamp(nearest_pixel(p.y + aside * p.normal_y), 0, search_.image.height - 1);
-    return static_cast<double>(search_.image(x, y));
-  };
-  for (std::size_t i = line.range.begin; i < line.range.end; i += step) {
-    const StripePoint& p = g.lines.points[i];
-    const double top = grey(p, 0), left = top - grey(p, -reach), right = top - grey(p, reach);
-    ++looked_at;
-    one_sided += std::min(left, right) < kLeastFlanks * std::max(left, right) ? 1U : 0U;
+  if (grained_sigma_ == 0 && g.limits.grain > 0 && weight(line) > heaviest_) {
+    grained_sigma_ = g.kernels->sigma;
+    grain_ = g.limits.grain;
   }
-  return 2 * one_sided > looked_at;
-}
-
-/// In the glow of a line that is already found broad kernels see it once more:
-/// most of what they look at belongs to the other line.
-template <class T>
-bool LineFinder<T>::runs_beside_another(const Followed& line) const {
-  const ScaleGroup& g = groups_.all[line.group];
-  const std::size_t step = sample_step(line.range);
-  std::size_t looked_at = 0, taken = 0;
-  for (std::size_t i = line.range.begin; i < line.range.end; i += step) {
-    const StripePoint& p = g.lines.points[i];
-    ++looked_at;
-    for (const double aside : {-1.5, -1.0, -0.5, 0.0, 0.5, 1.0, 1.5}) {
-      const auto x = nearest_pixel(p.x + aside * g.kernels->sigma * p.normal_x),
-                 y = nearest_pixel(p.y + aside * g.kernels->sigma * p.normal_y);
-      if (!search_.image.contains(x, y)) continue;
-      const std::uint16_t label = following_.mask(x, y);
-      if (label == ExclusionMask::kFree || label == ExclusionMask::kDead || label >= line.first_label)
-        continue;
-      ++taken;
-      break;
-    }
-  }
-  return static_cast<double>(taken) > search_.tuning.most_taken * static_cast<double>(looked_at);
+  heaviest_ = std::max(heaviest_, weight(line));
 }
 
 template <class T>
 void LineFinder<T>::keep_or_reject(const Followed& line, int seed_level) {
-  const double least = search_.least_widths * full_width_of(groups_.all[line.group].kernels->sigma);
-  if (length(line) >= search_.tuning.least_length * least && !runs_beside_another(line)) {
+  const double sigma = groups_.all[line.group].kernels->sigma,
+               least = search_.least_widths * full_width_of(sigma);
+  if (length(line) >= search_.tuning.least_length * least &&
+      !runs_beside_another(search_.image, following_.mask, points_of(line), sigma, line.first_label,
+                           search_.tuning.most_taken)) {
     ++lines_;
+    note_grain(line);
     // An edge or a crumb: the filter of whole lines drops nearly all of them.
-    if (is_edge(line) || length(line) < least)
+    if (is_edge(search_.image, points_of(line), sigma) || length(line) < least)
       add_futile(line);
     else if (length(line) * height(line) >= search_.tuning.evident_line * least * strongest_)
       w_.patience.add_line(points_of(line), least / search_.least_widths);
@@ -358,8 +336,15 @@ void LineFinder<T>::try_seed(const ScaleSeed& seed) {
     w_.patience.add_futile(search_.tuning.futile_seed);
     return;
   }
-  const auto line = follow(group_for(ridge->sigma, search_.tuning.shared_scale), seed.x, seed.y);
-  if (line) keep_or_reject(at_own_scale(*line), seed.level);
+  std::optional<Followed> line;
+  // What stands out may be a single grain, which has a scale of its own.
+  if (grained_sigma_ > ridge->sigma) line = follow(group_for(grained_sigma_, 0.01), seed.x, seed.y);
+  if (!line) line = follow(group_for(ridge->sigma, search_.tuning.shared_scale), seed.x, seed.y);
+  if (!line) return;
+  Followed own = at_own_scale(*line);
+  // Only a line that has grown tells its grain.
+  if (length(own) > 2 * length(*line)) own = at_own_scale(own, 2);
+  keep_or_reject(own, seed.level);
 }
 
 /// Tries the seeds in their order, as long as there is hope.
@@ -376,7 +361,14 @@ void LineFinder<T>::try_seeds(bool beside_ends) {
 template <class T>
 void LineFinder<T>::run() {
   prepare();
+  begin();
   try_seeds(false);
+  if (grained_sigma_ > 0) {
+    // From the start, with what is known now: single grains took the line's places.
+    begin();
+    groups_.all[group_for(grained_sigma_, 0.01)].limits.grain = grain_;
+    try_seeds(false);
+  }
   if (!w_.patience.is_over()) return;
   w_.patience.look_beside_ends();
   // What is found has ends of its own.

@@ -16,6 +16,7 @@ struct RidgeLimits {
   double follow_strength = 0;  ///< for further points
   double shaded_strength = 0;  ///< for further points darker than T_l
   double strength_noise = 0;   ///< standard deviation of strengths by the image noise
+  double grain = 0;            ///< of a strength: standard deviation by the grain of the line's light
   double clear_strength = 0;   ///< from here on the direction of one point is sure
   double relative_strength = 0.015;  ///< of the line's strongest recent point, for further points
   int largest_gap = 8;               ///< px, looked ahead along the direction before a line ends

@@ -95,32 +95,52 @@ AmbientChange fit_change(ImageView<T> lit, ImageView<T> dark, int shift) {
 template <class T>
 struct Ambient {
   AmbientChange change;  ///< grey levels of the pictures
-  double dark_level = 0, clearly_darker = 0;
+  double dark_level = 0;
 
-  double of(T dark) const { return change.gain * dark + change.offset; }
+  /// Grey levels of the laser's light.
+  double light(T lit, T dark) const { return lit - (change.gain * dark + change.offset); }
+  /// The same over the dark level, as a pixel.
+  T pixel(double light) const {
+    constexpr double kMost = std::numeric_limits<T>::max();
+    return static_cast<T>(std::clamp(light + dark_level, 0.0, kMost) + 0.5);
+  }
 };
 
 template <class T>
-Ambient<T> ambient_of(ImageView<T> lit, ImageView<T> dark) {
+Ambient<T> ambient_of(ImageView<T> lit, ImageView<T> dark, int shift) {
+  AmbientChange change = fit_change(lit, dark, shift);
+  change.offset *= 1 << shift;
+  return {change, static_cast<double>(kDarkLevel << shift)};
+}
+
+/// By how much a pixel is clearly darker than without the laser; `shift`: as level_shift().
+template <class T>
+double clearly_darker(ImageView<T> lit, int shift) {
   constexpr double kLeastDarker = 10, kSigmas = 8;  // of 256 levels; of the lit picture's noise
-  const int shift = level_shift(lit, dark);
-  Ambient<T> ambient;
-  ambient.change = fit_change(lit, dark, shift);
-  ambient.change.offset *= 1 << shift;
-  ambient.dark_level = kDarkLevel << shift;
-  ambient.clearly_darker = std::max(kLeastDarker * (1 << shift), kSigmas * estimate_noise(lit, 8).full);
-  return ambient;
+  return std::max(kLeastDarker * (1 << shift), kSigmas * estimate_noise(lit, 8).full);
 }
 
 }  // namespace
 
 AmbientChange fit_ambient_change(ImageView8 lit, ImageView8 dark) { return fit_change(lit, dark, 0); }
-AmbientChange fit_ambient_change(ImageView16 lit, ImageView16 dark) { return ambient_of(lit, dark).change; }
+AmbientChange fit_ambient_change(ImageView16 lit, ImageView16 dark) {
+  return ambient_of(lit, dark, level_shift(lit, dark)).change;
+}
+
+Image8 laser_light(ImageView8 lit, ImageView8 dark) {
+  const Ambient<std::uint8_t> ambient = ambient_of(lit, dark, 0);
+  Image8 light(lit.width, lit.height);
+  for (int y = 0; y < lit.height; ++y)
+    for (int x = 0; x < lit.width; ++x) light(x, y) = ambient.pixel(ambient.light(lit(x, y), dark(x, y)));
+  return light;
+}
 
 template <class T>
 LaserLight<T> subtract_background(const Image<T>& lit, const Image<T>& dark) {
   constexpr int kMost = std::numeric_limits<T>::max();
-  const Ambient<T> ambient = ambient_of(lit.view(), dark.view());
+  const int shift = level_shift(lit.view(), dark.view());
+  const Ambient<T> ambient = ambient_of(lit.view(), dark.view(), shift);
+  const double much_darker = clearly_darker(lit.view(), shift);
   LaserLight<T> light;
   light.change = ambient.change;
   light.image = Image<T>(lit.width, lit.height);
@@ -129,10 +149,9 @@ LaserLight<T> subtract_background(const Image<T>& lit, const Image<T>& dark) {
   if (lit.where.empty()) light.image.where.assign(lit.pixels.size(), LaserPlace::kSure);
   std::size_t darker = 0;
   for (std::size_t i = 0; i < lit.pixels.size(); ++i) {
-    const double rest = lit.pixels[i] - ambient.of(dark.pixels[i]);
-    light.image.pixels[i] =
-        static_cast<T>(std::clamp(static_cast<int>(std::lround(rest + ambient.dark_level)), 0, kMost));
-    darker += rest < -ambient.clearly_darker ? 1U : 0U;
+    const double rest = ambient.light(lit.pixels[i], dark.pixels[i]);
+    light.image.pixels[i] = ambient.pixel(rest);
+    darker += rest < -much_darker ? 1U : 0U;
     std::uint8_t& place = light.image.where[i];
     if (lit.pixels[i] >= kMost - 1 && place == LaserPlace::kSure) place = LaserPlace::kClipped;
   }

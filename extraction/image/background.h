@@ -24,9 +24,12 @@ AmbientChange fit_ambient_change(ImageView16 lit, ImageView16 dark);
 /// that it passed for little noise and its peaks for light.
 inline constexpr int kDarkLevel = 12;
 
+/// kDarkLevel + lit - (gain * dark + offset), rounded, clipped to 0..255. Both pictures of one size.
+Image8 laser_light(ImageView8 lit, ImageView8 dark);
+
 template <class T>
 struct LaserLight {
-  Image<T> image;  ///< kDarkLevel + lit - (gain * dark + offset); `where` is always known
+  Image<T> image;  ///< as laser_light(); `where` is always known
   AmbientChange change;
   double darker_share = 0;  ///< of the pixels: clearly darker than without the laser, which only adds light
 };

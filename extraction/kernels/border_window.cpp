@@ -103,6 +103,18 @@ void fill_row_outside(ImageView<T> image, const BorderWindow& w, int y, int firs
   for (int i = first; i < last; ++i) out[i] = ShiftedLine<T>::between(pixel[i], pixel[i + 1], line.part);
 }
 
+/// The whole window where no direction is known: each row is the nearest one of the image, its ends repeated.
+template <class T>
+void repeat_border(ImageView<T> image, const BorderWindow& w, int first, int last, std::vector<T>& window) {
+  T* out = window.data();
+  for (int j = 0; j < w.taps; ++j, out += w.pitch) {
+    const T* row = image.row(std::clamp(w.top + j, 0, image.height - 1));
+    for (int i = 0; i < first; ++i) out[i] = row[0];
+    copy_few(row + w.left + first, last - first, out + first);
+    for (int i = last; i < w.taps; ++i) out[i] = row[image.width - 1];
+  }
+}
+
 }  // namespace
 
 template <class T>
@@ -111,6 +123,7 @@ void fill_border_window(ImageView<T> image, const BorderWindow& place, std::vect
   window.resize(static_cast<std::size_t>(place.taps) * static_cast<std::size_t>(place.pitch));
   const int first = std::clamp(-place.left, 0, place.taps);
   const int last = std::clamp(image.width - place.left, first, place.taps);
+  if (place.tangent_x == 0 && place.tangent_y == 0) return repeat_border(image, place, first, last, window);
   for (int j = 0; j < place.taps; ++j) {
     const int y = place.top + j;
     T* out = window.data() + static_cast<std::ptrdiff_t>(j) * place.pitch;

@@ -44,6 +44,9 @@ bool candidates(const ScanRow<T>& row, int width, const ScanRule<T>& rule, std::
   // x >= least is the same as (x saturating-minus (least - 1)) != 0, and that is one instruction.
   const auto below_level = hn::Set(d, static_cast<T>(rule.level > 0 ? rule.level - 1 : 0));
   const auto below_contrast = hn::Set(d, static_cast<T>(rule.contrast - 1));
+  // What is darker than the contrast cannot be brighter by it than anything: in a dark picture one look at
+  // the row itself is enough for nearly all of it.
+  const auto too_dark = hn::Max(below_level, below_contrast);
   const auto zero = hn::Zero(d);
   bool any = false;
   const int last = width - rule.reach;
@@ -52,6 +55,7 @@ bool candidates(const ScanRow<T>& row, int width, const ScanRule<T>& rule, std::
   for (; x < last && rule.reach + lanes <= last; x += lanes) {
     x = x + lanes <= last ? x : last - lanes;
     const auto grey = hn::LoadU(d, row.centre + x);
+    if (hn::AllTrue(d, hn::Eq(hn::SaturatedSub(grey, too_dark), zero))) continue;
     const auto across_row = hn::Min(hn::SaturatedSub(grey, hn::LoadU(d, row.centre + x - rule.reach)),
                                     hn::SaturatedSub(grey, hn::LoadU(d, row.centre + x + rule.reach)));
     const auto across_column = hn::Min(hn::SaturatedSub(grey, hn::LoadU(d, row.above + x)),

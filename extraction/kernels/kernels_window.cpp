@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "extraction/kernels/kernels_window.h"
 
+#include <cstring>
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "extraction/kernels/kernels_window.cpp"
 // Highway compiles this file once for each instruction set.
@@ -71,6 +73,41 @@ Derivatives window(const T* top_left, std::ptrdiff_t stride, const float* wx, co
   return {sum(value), sum(dx), sum(dy), sum(dxx), sum(dxy), sum(dyy)};
 }
 
+/// Four sums, of each fourth pixel: few pixels do not fill longer vectors.
+template <class T>
+float row_sum(const T* pixels, std::ptrdiff_t step, const float* weights, int taps) {
+  float sums[4] = {};
+  int k = 0;
+#if HWY_TARGET != HWY_SCALAR  // which has no vectors of four
+  const hn::CappedTag<float, 4> d;
+  const hn::Rebind<T, decltype(d)> d_pixel;
+  const hn::Rebind<std::int32_t, decltype(d)> d_int;
+  auto sum = hn::Zero(d);
+  for (; k + 4 <= taps; k += 4, pixels += 4 * step) {
+    // Together in one register, for single pixels could not be loaded as four until they are written.
+    constexpr int kBits = 8 * sizeof(T);
+    const std::uint64_t four = std::uint64_t{pixels[0]} | std::uint64_t{pixels[step]} << kBits |
+                               std::uint64_t{pixels[2 * step]} << (2 * kBits) |
+                               std::uint64_t{pixels[3 * step]} << (3 * kBits);
+    T grey[4];
+    std::memcpy(grey, &four, sizeof(grey));
+    const auto value = hn::ConvertTo(d, hn::PromoteTo(d_int, hn::LoadU(d_pixel, step == 1 ? pixels : grey)));
+    sum = hn::MulAdd(hn::LoadU(d, weights + k), value, sum);
+  }
+  hn::StoreU(sum, d, sums);
+#endif
+  for (; k < taps; ++k, pixels += step) sums[0] += weights[k] * static_cast<float>(*pixels);
+  return (sums[0] + sums[1]) + (sums[2] + sums[3]);
+}
+
+float row_sum8(const std::uint8_t* pixels, std::ptrdiff_t step, const float* weights, int taps) {
+  // A step that the compiler knows needs no pixels one by one.
+  return step == 1 ? row_sum(pixels, 1, weights, taps) : row_sum(pixels, step, weights, taps);
+}
+float row_sum16(const std::uint16_t* pixels, std::ptrdiff_t step, const float* weights, int taps) {
+  return step == 1 ? row_sum(pixels, 1, weights, taps) : row_sum(pixels, step, weights, taps);
+}
+
 Derivatives window8(const std::uint8_t* top_left, std::ptrdiff_t stride, const float* wx, const float* wy,
                     int taps, int pitch) {
   return window(top_left, stride, wx, wy, taps, pitch);
@@ -89,6 +126,16 @@ namespace lightstripe {
 
 HWY_EXPORT(window8);
 HWY_EXPORT(window16);
+HWY_EXPORT(row_sum8);
+HWY_EXPORT(row_sum16);
+
+float weighted_sum(const std::uint8_t* pixels, std::ptrdiff_t step, const float* weights, int taps) {
+  return HWY_DYNAMIC_DISPATCH(row_sum8)(pixels, step, weights, taps);
+}
+
+float weighted_sum(const std::uint16_t* pixels, std::ptrdiff_t step, const float* weights, int taps) {
+  return HWY_DYNAMIC_DISPATCH(row_sum16)(pixels, step, weights, taps);
+}
 
 Derivatives window_derivatives(const std::uint8_t* top_left, std::ptrdiff_t stride, const float* weights_x,
                                const float* weights_y, int taps, int pitch) {

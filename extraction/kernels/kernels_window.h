@@ -18,7 +18,19 @@ Derivatives window_derivatives(const std::uint8_t* top_left, std::ptrdiff_t stri
 Derivatives window_derivatives(const std::uint16_t* top_left, std::ptrdiff_t stride, const float* weights_x,
                                const float* weights_y, int taps, int pitch);
 
+/// Sum of `taps` pixels, `step` elements from one to the next, times their weights.
+float weighted_sum(const std::uint8_t* pixels, std::ptrdiff_t step, const float* weights, int taps);
+float weighted_sum(const std::uint16_t* pixels, std::ptrdiff_t step, const float* weights, int taps);
+
 /// The same written plainly: the reference of the tests.
+template <class T>
+float weighted_sum_scalar(const T* pixels, std::ptrdiff_t step, const float* weights, int taps) {
+  double sum = 0;
+  for (int k = 0; k < taps; ++k, pixels += step) sum += double{weights[k]} * static_cast<double>(*pixels);
+  return static_cast<float>(sum);
+}
+
+/// window_derivatives written plainly: the reference of the tests.
 template <class T>
 Derivatives window_derivatives_scalar(const T* top_left, std::ptrdiff_t stride, const float* weights_x,
                                       const float* weights_y, int taps, int pitch) {

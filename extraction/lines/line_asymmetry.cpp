@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <span>
 
 #include "core/robust.h"
@@ -24,6 +25,34 @@ struct MeanProfile {
   double cosine = 1;
   int rows = 0;
 };
+
+std::uint32_t sum_of(const std::uint16_t* pixels, int count) {
+  std::uint32_t sum = 0;
+  for (int i = 0; i < count; ++i) sum += pixels[i];
+  return sum;
+}
+
+/// Eight at a time, in four sums of 16 bits: these hold 128 times as many.
+std::uint32_t sum_of(const std::uint8_t* pixels, int count) {
+  constexpr std::uint64_t kEven = 0x00FF00FF00FF00FF;
+  constexpr int kMost = 1024;
+  std::uint32_t sum = 0;
+  if (count < 8) {
+    for (int i = 0; i < count; ++i) sum += pixels[i];
+    return sum;
+  }
+  for (; count > kMost; pixels += kMost, count -= kMost) sum += sum_of(pixels, kMost);
+  std::uint64_t four = 0;
+  int i = 0;
+  for (; i + 8 <= count; i += 8) {
+    std::uint64_t eight = 0;
+    std::memcpy(&eight, pixels + i, 8);
+    four += (eight & kEven) + (eight >> 8 & kEven);
+  }
+  for (; i < count; ++i) sum += pixels[i];
+  four = (four & 0x0000FFFF0000FFFF) + (four >> 16 & 0x0000FFFF0000FFFF);
+  return sum + static_cast<std::uint32_t>(four) + static_cast<std::uint32_t>(four >> 32);
+}
 
 /// Columns side by side that cross the line at one row: of a line along the rows many do.
 struct ColumnRun {
@@ -96,11 +125,7 @@ void ProfileSums<T>::add_run() {
   if (run_.count == 0) return;
   std::uint32_t* sum = sums_of(run_.forwards);
   const T* pixel = image_.row(run_.y - reach_) + run_.x;
-  for (int k = 0; k <= 2 * reach_; ++k, pixel += image_.stride) {
-    std::uint32_t total = 0;
-    for (int i = 0; i < run_.count; ++i) total += pixel[i];
-    sum[k] += total;
-  }
+  for (int k = 0; k <= 2 * reach_; ++k, pixel += image_.stride) sum[k] += sum_of(pixel, run_.count);
   run_.count = 0;
 }
 

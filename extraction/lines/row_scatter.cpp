@@ -7,9 +7,9 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <type_traits>
 
 #include "extraction/follow/direction_guided_ridge.h"
+#include "extraction/kernels/kernels_window.h"
 
 namespace lightstripe {
 namespace {
@@ -43,20 +43,6 @@ Crossing crossing_at(const StripePoint& p) {
   return {is_row, index, centre - (index - place) * along / across, std::abs(across)};
 }
 
-/// Of `taps` pixels, `step` elements from one to the next. Four sums, which do not wait for each
-/// other; a step of 1 that the compiler knows makes vectors of them.
-template <class T, class Step>
-float weighted_sum(const T* pixel, Step step, const float* weights, int taps) {
-  std::array<float, 4> sums{};
-  int k = 0;
-  for (; k + 4 <= taps; k += 4, pixel += 4 * step)
-    for (std::size_t i = 0; i < 4; ++i)
-      sums[i] +=
-          weights[k + static_cast<int>(i)] * static_cast<float>(pixel[static_cast<std::ptrdiff_t>(i) * step]);
-  for (; k < taps; ++k, pixel += step) sums[0] += weights[k] * static_cast<float>(*pixel);
-  return (sums[0] + sums[1]) + (sums[2] + sums[3]);
-}
-
 /// The centre of one row less that of the line, px along the row, for kernels along the row only.
 /// `strength`: the line's, across it.
 template <class T>
@@ -69,8 +55,7 @@ double row_offset(ImageView<T> image, const DerivativeKernels& kernels, const Cr
   const int first = at.pixel - kernels.radius;
   float slope = 0;
   if (first >= 0 && first + kernels.taps <= count) {
-    slope = step == 1 ? weighted_sum(line + first, std::integral_constant<int, 1>(), weights, kernels.taps)
-                      : weighted_sum(line + first * step, step, weights, kernels.taps);
+    slope = weighted_sum(line + first * step, step, weights, kernels.taps);
   } else {
     for (int k = 0; k < kernels.taps; ++k)
       slope += weights[k] * static_cast<float>(line[std::clamp(first + k, 0, count - 1) * step]);

@@ -51,6 +51,24 @@ void append_integer(std::string& out, std::int64_t value) {
   out.append(digits.data(), end);
 }
 
+namespace {
+
+/// As llround, for values below 2^53.
+std::int64_t rounded(double value) {
+  const auto whole = static_cast<std::int64_t>(value);
+  const double rest = value - static_cast<double>(whole);  // exact
+  return whole + (rest >= 0.5 ? 1 : 0) - (rest <= -0.5 ? 1 : 0);
+}
+
+/// Writes the digits of `value` before `end`, at least `least` of them, and returns the first.
+char* write_digits(std::uint64_t value, int least, char* end) {
+  char* at = end;
+  for (; value > 0 || end - at < least; value /= 10) *--at = static_cast<char>('0' + value % 10);
+  return at;
+}
+
+}  // namespace
+
 void append_decimals(std::string& out, double value, int decimals) {
   constexpr std::array<std::int64_t, 10> kPowers = {
       1, 10, 100, 1'000, 10'000, 100'000, 1'000'000, 10'000'000, 100'000'000, 1'000'000'000};
@@ -58,20 +76,23 @@ void append_decimals(std::string& out, double value, int decimals) {
   const std::int64_t power = kPowers.at(static_cast<std::size_t>(decimals));
   const double scaled = value * static_cast<double>(power);
   if (std::abs(scaled) > 9e15) return append_shortest(out, value);  // beyond 2^53 every double is whole
-  const std::int64_t number = std::llround(scaled);
-  if (number < 0) out.push_back('-');
-  // The digits of the whole number, with zeros ahead so that one stands before the point.
-  std::array<char, 32> digits;
-  digits.fill('0');
-  char* const start = digits.data() + 10;
-  const char* const end = std::to_chars(start, digits.data() + digits.size(), std::abs(number)).ptr;
-  const char* const point = end - decimals;
-  out.append(std::min<const char*>(start, point - 1), point);
-  const std::string_view fraction(point, static_cast<std::size_t>(decimals));
-  const std::size_t used = fraction.find_last_not_of('0') + 1;  // 0 where all are zeros
-  if (used == 0) return;
-  out.push_back('.');
-  out.append(fraction.substr(0, used));
+  const std::int64_t number = rounded(scaled);
+  auto digits = static_cast<std::uint64_t>(number < 0 ? -number : number);
+  int places = decimals;
+  for (; places > 0 && digits % 10 == 0; --places) digits /= 10;
+  // The text grows from its end: one append costs less than four.
+  std::array<char, 32> text;
+  char* const end = text.data() + text.size();
+  char* first = end;
+  if (places > 0) {
+    const std::uint64_t scale = static_cast<std::uint64_t>(kPowers[static_cast<std::size_t>(places)]);
+    first = write_digits(digits % scale, places, end);
+    *--first = '.';
+    digits /= scale;
+  }
+  first = write_digits(digits, 1, first);
+  if (number < 0) *--first = '-';
+  out.append(first, end);
 }
 
 }  // namespace lightstripe

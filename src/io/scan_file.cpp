@@ -3,9 +3,6 @@
 // The scan half of session_file.h.
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <set>
-
 #include "core/error.h"
 #include "io/backgrounds_field.h"
 #include "io/session_file.h"
@@ -71,21 +68,13 @@ void set_travel(Scan& scan, const TravelFields& travel) {
   scan.poses_of = travel.of.value_or("");
 }
 
-Backgrounds checked_backgrounds(const Backgrounds& backgrounds, const Scan& scan, const std::string& file) {
-  for (const auto& [sensor, pattern] : backgrounds.of_sensor) {
-    const bool known = std::any_of(scan.frames.begin(), scan.frames.end(),
-                                   [&name = sensor](const auto& frames) { return frames.first == name; });
-    if (!sensor.empty() && !known)
-      throw Error(fmt::format("{}: background.{}", file, sensor), "names no sensor of frames",
-                  "use a name from frames");
-    if (sensor.empty() && scan.frames.size() > 1)
-      throw Error(file + ": background", "is one for several sensors",
-                  "give each its own, e.g. background: {gauge: off/gauge/*.png, field: off/field/*.png}");
-    if (pattern.empty())
-      throw Error(file + ": background", "is empty",
-                  "give a file or a pattern of pictures with the laser off");
-  }
-  return backgrounds;
+constexpr SensorWords kWords{"frames", "frames",
+                             "e.g. background: {gauge: off/gauge/*.png, field: off/field/*.png}"};
+
+std::vector<std::string> sensor_names(const Scan& scan) {
+  std::vector<std::string> names;
+  for (const auto& [sensor, pattern] : scan.frames) names.push_back(sensor);
+  return names;
 }
 
 }  // namespace
@@ -111,10 +100,9 @@ Scan read_scan(const std::filesystem::path& path) {
     set_travel(scan, *fields.travel);
   }
   if (fields.channel) scan.channel = *fields.channel;
-  if (fields.background) scan.background = checked_backgrounds(*fields.background, scan, file);
-  scan.extraction = fields.extraction;
-  if (scan.extraction.origin.empty()) scan.extraction.origin = path.string() + ": extraction";
-  if (fields.polarity) detail::add_entry(scan.extraction, "polarity", *fields.polarity);
+  scan.background = fields.background.value_or(Backgrounds{});
+  check_backgrounds(scan.background, sensor_names(scan), file, kWords);
+  scan.extraction = extraction_part(fields.extraction, fields.polarity, path);
   return scan;
 }
 

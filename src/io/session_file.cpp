@@ -146,19 +146,12 @@ std::vector<SessionSensor> checked_sensors(const std::vector<SensorFields>& fiel
 /// A session's own `background` is that of each sensor which names none itself.
 void give_backgrounds(const Backgrounds& backgrounds, std::vector<SessionSensor>& sensors,
                       const Checker& check) {
-  for (const auto& [name, pattern] : backgrounds.of_sensor) {
-    check.require(!pattern.empty(), "background", "is empty",
-                  "give a file or a pattern of pictures with the laser off");
-    check.require(!name.empty() || sensors.size() == 1, "background", "is one for several sensors",
-                  "give each its own, as a key of the sensor");
-    bool known = name.empty();
-    for (SessionSensor& sensor : sensors) {
-      if (!name.empty() && sensor.name != name) continue;
-      known = true;
-      if (!sensor.background) sensor.background = pattern;
-    }
-    check.require(known, "background." + name, "names no sensor of this session", "use a name from sensors");
-  }
+  std::vector<std::string> names;
+  for (const SessionSensor& sensor : sensors) names.push_back(sensor.name);
+  check_backgrounds(backgrounds, names, check.file, {"this session", "sensors", "as a key of the sensor"});
+  for (SessionSensor& sensor : sensors)
+    if (const std::string pattern = backgrounds.pattern(sensor.name); !sensor.background && !pattern.empty())
+      sensor.background = pattern;
 }
 
 SessionMotion checked_motion(const MotionFields& fields, const std::vector<SessionSensor>& sensors,
@@ -203,9 +196,7 @@ Session read_session(const std::filesystem::path& path) {
   check.require(session.up.norm() > 1e-9, "up", "is a zero vector",
                 "point it up in the first sensor's camera frame");
   if (fields.channel) session.channel = *fields.channel;
-  session.extraction = fields.extraction;
-  if (session.extraction.origin.empty()) session.extraction.origin = path.string() + ": extraction";
-  if (fields.polarity) detail::add_entry(session.extraction, "polarity", *fields.polarity);
+  session.extraction = extraction_part(fields.extraction, fields.polarity, path);
   session.calibration = fields.calibration;
   return session;
 }

@@ -54,6 +54,24 @@ TEST(Kernels, VectorsAgreeWithTheScalarReferenceForAllTails) {
   }
 }
 
+TEST(Kernels, WeightedSumsAgreeWithTheScalarReferenceForAllTailsAndSteps) {
+  const Image8 image8 = noise_image<std::uint8_t>(301, 211, 255, 4);
+  const Image16 image16 = noise_image<std::uint16_t>(301, 211, 65535, 5);
+  Random random(6);
+  std::vector<float> weights(64);
+  for (float& w : weights) w = static_cast<float>(random.uniform(-1, 1));
+  for (int taps = 0; taps < 64; ++taps)
+    for (const std::ptrdiff_t step : {1, 2, 301}) {
+      const auto *a = image8.row(3) + 11, *last = image8.row(210);
+      ASSERT_LT(a + taps * step, last);
+      EXPECT_NEAR(weighted_sum(a, step, weights.data(), taps),
+                  weighted_sum_scalar(a, step, weights.data(), taps), 2e-3F);
+      const auto* b = image16.row(3) + 11;
+      EXPECT_NEAR(weighted_sum(b, step, weights.data(), taps),
+                  weighted_sum_scalar(b, step, weights.data(), taps), 0.5F);
+    }
+}
+
 TEST(Kernels, AgreeWithOpenCvSepFilter) {
   const Image8 image = noise_image<std::uint8_t>(120, 90, 255, 3);
   const DerivativeKernels kernels = make_derivative_kernels(2.3);

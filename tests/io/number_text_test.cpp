@@ -51,6 +51,12 @@ TEST(NumberText, DecimalsAreRoundedAndZerosLeftOut) {
   EXPECT_EQ(decimals(-3.00507, 5), "-3.00507");
   EXPECT_EQ(decimals(1640.123456789, 9), "1640.123456789");
   EXPECT_EQ(decimals(7, 0), "7");
+  EXPECT_EQ(decimals(-0.5, 0), "-1");
+  EXPECT_EQ(decimals(2.5, 0), "3");
+  EXPECT_EQ(decimals(0.00001, 5), "0.00001");
+  EXPECT_EQ(decimals(100, 5), "100");
+  EXPECT_EQ(decimals(-1200.5, 3), "-1200.5");
+  EXPECT_EQ(decimals(8.999999999e15, 0), "8999999999000000");
   EXPECT_EQ(decimals(1e300, 5), "1e+300");
   EXPECT_EQ(decimals(std::numeric_limits<double>::quiet_NaN(), 5), "");
 }

@@ -4,12 +4,12 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "io/nominal_outlines.h"
+#include "core/random.h"
+#include "rolling_outlines.h"
 
 namespace lightstripe {
 namespace {
@@ -134,18 +134,6 @@ RollingProfile noisy(const char* name, std::vector<Vector2d> points, double sigm
   Random random(seed);
   for (Vector2d& p : points) p.y() += sigma * random.gaussian();
   return {name, RunningSurface::measured(points, {}), 0, face};
-}
-
-/// Points of an outline that look up, turned, from left to right.
-std::vector<Vector2d> upper(const char* name, double turn_rad, double from, double to, double sign) {
-  std::vector<Vector2d> out;
-  for (const OutlineSample& p : sample(read_nominal(name), 0.1)) {
-    const Vector2d turned = Eigen::Rotation2Dd(turn_rad) * p.position;
-    if (p.normal.y() > 0.05 && turned.y() > -16 && turned.x() > from && turned.x() < to)
-      out.emplace_back(turned.x(), sign * turned.y());
-  }
-  std::sort(out.begin(), out.end(), [](const Vector2d& a, const Vector2d& b) { return a.x() < b.x(); });
-  return out;
 }
 
 // The predicted error against the errors of repeats, gauge included, S1002 on 60E1 1:40: their scatter, and

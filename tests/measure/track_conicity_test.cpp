@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "io/nominal_outlines.h"
+#include "rolling_outlines.h"
 #include "sections.h"
 
 namespace lightstripe {
@@ -19,18 +20,6 @@ using ::testing::HasSubstr;
 constexpr double kLean = 1.43210;  // 1:40
 // Of 60E1 at 1:40 the highest point lies 7.497 towards the field, the gauge point 43.03 further in.
 constexpr double kHalfMm = 753.033;  // so that the gauge is 1435
-
-/// Points of an outline that look up, turned, sorted.
-std::vector<Vector2d> upper(const char* name, double turn_rad, double from, double to, double sign) {
-  std::vector<Vector2d> out;
-  for (const OutlineSample& p : sample(read_nominal(name), 0.1)) {
-    const Vector2d turned = Eigen::Rotation2Dd(turn_rad) * p.position;
-    if (p.normal.y() > 0.05 && turned.y() > -16 && turned.x() > from && turned.x() < to)
-      out.emplace_back(turned.x(), sign * turned.y());
-  }
-  std::sort(out.begin(), out.end(), [](const Vector2d& a, const Vector2d& b) { return a.x() < b.x(); });
-  return out;
-}
 
 class TrackConicity : public ::testing::Test {
  protected:

@@ -275,6 +275,16 @@ def test_measure_gives_the_rows_of_the_table(scan, tmp_path):
         lightstripe.measure(scan / "profiles.csv", "rail", options={"registration": {"iterationz": 3}})
 
 
+def test_errors_speak_of_arguments_not_of_command_lines(scan, tmp_path):
+    with pytest.raises(lightstripe.Error) as caught:
+        lightstripe.measure(scan / "profiles.csv", "wheel", nominal="auto")
+    assert str(caught.value).startswith('`nominal="auto"`: tells rails apart, not wheels')
+    with pytest.raises(lightstripe.Error) as caught:
+        lightstripe.measure(scan / "profiles.csv", "wheel", nominal="60E1")
+    assert "--" not in str(caught.value)
+    assert "`kind`" in str(caught.value)
+
+
 def test_the_stubs_name_what_the_module_has():
     stubs = (pathlib.Path(lightstripe.__file__).parent / "__init__.pyi").read_text()
     declared = set(re.findall(r"^(?:def|class) (\w+)", stubs, re.M))

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The lightstripe authors
 // SPDX-License-Identifier: Apache-2.0
-#include "calib/board/laser_light.h"
+#include "extraction/image/background.h"
 
 #include <gtest/gtest.h>
 

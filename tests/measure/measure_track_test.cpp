@@ -1,15 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The lightstripe authors
 // SPDX-License-Identifier: Apache-2.0
-// Two rails in one section, earlier scans as references, and what only a whole turn of a wheel can tell.
+// Two rails in one section.
+#include "measure/measure_track.h"
+
 #include <gmock/gmock.h>
 
 #include <cmath>
 
-#include "core/error.h"
+#include "estimates.h"
 #include "io/nominal_outlines.h"
-#include "measure/baseline.h"
-#include "measure/measure_track.h"
-#include "measure/run_out.h"
 #include "measure/track_gauge.h"
 #include "sections.h"
 #include "simulate/worn_rail.h"
@@ -19,15 +18,6 @@ namespace {
 
 using Eigen::Vector2d;
 using ::testing::HasSubstr;
-
-const Estimate& estimate_of(const MeasuredFrame& row, const std::string& name) {
-  for (const auto* list : {&row.estimates, &row.extras})
-    for (const NamedEstimate& one : *list)
-      if (one.name == name) return one.estimate;
-  ADD_FAILURE() << "no " << name;
-  static const Estimate none;
-  return none;
-}
 
 class Track : public ::testing::Test {
  protected:
@@ -128,76 +118,6 @@ double Track::gauge_by_search(const Outline& left, const Outline& right) {
   for (const Vector2d& p : points[1])
     if ((p - crest[1]).dot(up) > -14) innermost[1] = std::max(innermost[1], p.dot(across));
   return innermost[0] - innermost[1];
-}
-
-class EarlierScan : public ::testing::Test {
- protected:
-  const Outline nominal = read_nominal("60E1");
-  const ReferenceShape reference{"60E1", ObjectKind::kRail, nominal};
-};
-
-// Noise 0.01 per point: medians of some seven points of the baseline 0.005, the fit's own 0.003.
-TEST_F(EarlierScan, WearIsWhatWasLostSince) {
-  const Profile earlier = profile_of(
-      rail_section(worn_rail(nominal, 1.0, 0.5), {.noise_mm = 0.01, .turn_deg = 1, .shift = {5, -250}}));
-  const Baseline baseline({earlier}, reference, {}, {}, "earlier");
-  const Profile now = profile_of(rail_section(
-      worn_rail(nominal, 1.6, 1.1), {.noise_mm = 0.01, .turn_deg = 2, .shift = {9, -251}, .seed = 2}));
-  const ReferenceShape* const shape = baseline.at(1e6);  // the only one
-  ASSERT_NE(shape, nullptr);
-  EXPECT_EQ(shape->name(), "60E1 baseline");
-  const MeasuredFrame row = measure_profile(now, {*shape, {}, {}}, {});
-  EXPECT_EQ(row.status, "ok");
-  EXPECT_NEAR(*estimate_of(row, "vertical_wear").value, 0.6, 0.02);
-  EXPECT_NEAR(*estimate_of(row, "side_wear").value, 0.6, 0.03);
-  EXPECT_NEAR(*estimate_of(row, "head_width").value, 71.963 - 1.1 + 0.1 * 1.6, 0.06);  // is no difference
-}
-
-TEST_F(EarlierScan, EachSectionIsComparedWithTheOneNearestInTravel) {
-  std::vector<Profile> profiles;
-  for (const double travel : {0.0, 10.0, 20.0})
-    profiles.push_back(profile_of(rail_section(worn_rail(nominal, travel / 10, 0), {}), travel));
-  const Baseline baseline(profiles, reference, {}, {}, "earlier");
-  ASSERT_EQ(baseline.size(), 3U);
-  EXPECT_NEAR(baseline.at(-3)->top_v(), 0, 0.01);
-  EXPECT_NEAR(baseline.at(14)->top_v(), -1, 0.01);
-  EXPECT_EQ(baseline.at(60), nullptr);
-}
-
-TEST_F(EarlierScan, WhatLiesOnNoRailIsNoBaseline) {
-  Section circle;
-  for (int i = 0; i < 300; ++i)
-    circle.push_back({Vector2d(60 * std::cos(i * 0.02), 60 * std::sin(i * 0.02)), 0, 0, 0, 1});
-  EXPECT_THROW(Baseline({profile_of(circle)}, reference, {}, {}, "circle.csv"), Error);
-}
-
-MeasuredFrame wheel_row(double angle_deg, double radius) {
-  MeasuredFrame row;
-  row.travel = angle_deg;
-  row.extras = {{"radial_deviation", Estimate::known(radius, 0.01)},
-                {"axial_deviation", Estimate::unknown("back not seen")}};
-  return row;
-}
-
-TEST(RunOut, IsHighestLessLowestOfAWholeTurn) {
-  std::vector<MeasuredFrame> rows;
-  for (int i = 0; i < 36; ++i)
-    rows.push_back(wheel_row(10 * i, 460 + 0.15 * std::cos(i * std::numbers::pi / 18)));
-  const RunOut run_out = find_run_out(rows);
-  ASSERT_TRUE(run_out.radial.value);
-  EXPECT_NEAR(*run_out.radial.value, 0.3, 1e-12);
-  EXPECT_NEAR(*run_out.radial.sigma, std::sqrt(2.0) * 0.01, 1e-12);
-  EXPECT_NEAR(*rows[0].extras[0].estimate.value, 0.15, 1e-9);
-  EXPECT_FALSE(run_out.axial.value);
-  EXPECT_EQ(run_out.axial.reason, "back not seen");
-}
-
-TEST(RunOut, OfPartOfATurnIsNotKnown) {
-  std::vector<MeasuredFrame> rows;
-  for (int i = 0; i < 30; ++i) rows.push_back(wheel_row(10 * i, 460));
-  const RunOut run_out = find_run_out(rows);
-  EXPECT_FALSE(run_out.radial.value);
-  EXPECT_THAT(run_out.radial.reason, HasSubstr("70 deg of the turn"));
 }
 
 }  // namespace
