@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 #include "extraction/compare/grey_value_lines.h"
 #include "extraction/compare/hu_recursive.h"
@@ -135,12 +136,14 @@ constexpr double kWidthSlack = 2;
 template <class T>
 void find_lines_at_own_scale(const Run<T>& run) {
   ExtractionWorkspace& w = run.w;
+  FollowTuning tuning;
+  if (run.options.on_pattern) tuning.main_grain = std::numeric_limits<double>::infinity();
   const OwnScaleSearch<T> search{run.image,
                                  run.facts.noise.seen,
                                  run.facts.histogram.largest,
                                  run.options.lines.min_length,
                                  run.options.stop_after,
-                                 {},
+                                 tuning,
                                  run.windowed};
   const LimitsMaker limits{&run, [](const void* given, const DerivativeKernels& kernels, double noise) {
                              const auto& r = *static_cast<const Run<T>*>(given);

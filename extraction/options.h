@@ -47,6 +47,9 @@ struct ExtractionOptions {
   bool track = false;                  ///< in sequences: look near the lines of an earlier frame first
   bool smoothing = false;              ///< local quadratic fit along the lines
   LineFilterOptions lines;             ///< what a line has to be like
+  /// No option of files: the light lies on a printed pattern, which varies it along the line as coarse grain
+  /// would.
+  bool on_pattern = false;
 };
 
 template <class V>

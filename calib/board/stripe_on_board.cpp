@@ -230,12 +230,16 @@ StripeOnBoard select_stripes(const std::vector<Stripe>& stripes, const std::vect
 
 namespace {
 
+std::vector<Stripe> lines_on_pattern(ImageView8 image, ExtractionOptions extraction) {
+  extraction.on_pattern = true;
+  return extract_stripes(image, extraction).stripes;
+}
+
 /// Board and stripe in one picture: the line must look like a laser's.
 StripeOnBoard find_in_one_picture(ImageView8 image, const std::vector<Vector2d>& corners,
                                   const Target& target, int laser_planes,
                                   const ExtractionOptions& extraction) {
-  StripeOnBoard result =
-      select_stripes(extract_stripes(image, extraction).stripes, corners, target, laser_planes);
+  StripeOnBoard result = select_stripes(lines_on_pattern(image, extraction), corners, target, laser_planes);
   for (const auto& line : result.planes) {
     const std::string why = no_laser_because(image, line, corners, target);
     if (why.empty()) continue;
@@ -264,11 +268,11 @@ StripeOnBoard find_stripe_on_board(ImageView8 laser, ImageView8 board, const std
         "the board moved by {:.1f} px between the picture without laser and that with it", *shift);
     return result;
   }
-  result = select_stripes(extract_stripes(laser_light(laser, board), extraction).stripes, corners, target,
-                          laser_planes);
+  result =
+      select_stripes(lines_on_pattern(laser_light(laser, board), extraction), corners, target, laser_planes);
   if (!result.planes.empty()) return result;
-  const auto swapped = select_stripes(extract_stripes(laser_light(board, laser), extraction).stripes, corners,
-                                      target, laser_planes);
+  const auto swapped =
+      select_stripes(lines_on_pattern(laser_light(board, laser), extraction), corners, target, laser_planes);
   if (!swapped.planes.empty() && swapped.reason.empty())
     result.reason = "the laser line is in the picture under `board`: swap the patterns of board and laser";
   return result;

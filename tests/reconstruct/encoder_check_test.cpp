@@ -64,7 +64,7 @@ TEST(EncoderCheck, TheReportedTablesAreSeenThrough) {
   EXPECT_NEAR(wrap.readings.back().second, 668.5, 1e-9);
   for (const double error : {42949672.95, -9999.0}) {
     const CheckedReadings spike = check({0, 2.5, 4, 6.5, 8, 10.5, error, 14.5, 16, 18.5, 20, 22.5});
-    EXPECT_THAT(spike.warnings, ElementsAre(AllOf(HasSubstr("left out"), HasSubstr("frames 6"))));
+    EXPECT_THAT(spike.warnings, ElementsAre(AllOf(HasSubstr("left out"), HasSubstr("frame 6"))));
     EXPECT_THAT(spike.readings, SizeIs(11));
   }
   const CheckedReadings stuck = check({0, 2.5, 4, 4, 4, 4, 4, 14.5, 16, 18.5, 20, 22.5});
