@@ -9,19 +9,14 @@
 #include <vector>
 
 #include "core/transform.h"
+#include "tilted_pose.h"
 
 namespace lightstripe {
 namespace {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
-
-Rigid3 tilted_pose(double degrees, const Vector3d& axis, const Vector3d& place) {
-  Rigid3 pose;
-  pose.rotation = Eigen::AngleAxisd(degrees * 3.14159265358979 / 180, axis.normalized());
-  pose.translation = place;
-  return pose;
-}
+using testing::tilted_pose;
 
 TEST(BoardHomography, GivesBackThePoseOfExactRays) {
   const Rigid3 truth = tilted_pose(35, {1, 0.3, -0.2}, {-20, 15, 400});

@@ -11,19 +11,14 @@
 #include "calib/observations.h"
 #include "calib/start/board_pose.h"
 #include "core/camera.h"
+#include "tilted_pose.h"
 
 namespace lightstripe {
 namespace {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
-
-Rigid3 tilted_pose(double degrees, const Vector3d& axis, const Vector3d& place) {
-  Rigid3 pose;
-  pose.rotation = Eigen::AngleAxisd(degrees * 3.14159265358979 / 180, axis.normalized());
-  pose.translation = place;
-  return pose;
-}
+using testing::tilted_pose;
 
 Target board_8_by_6() {
   Target target;
