@@ -277,6 +277,12 @@ StripeOnBoard find_in_one_picture(ImageView8 image, const std::vector<Vector2d>&
 
 }  // namespace
 
+StripeOnBoard find_stripe_in_light(ImageView8 light, const std::vector<Vector2d>& corners,
+                                   const Target& target, int laser_planes,
+                                   const ExtractionOptions& extraction) {
+  return find_laser_line(light, light, corners, target, laser_planes, extraction);
+}
+
 StripeOnBoard find_stripe_on_board(ImageView8 laser, ImageView8 board, const std::vector<Vector2d>& corners,
                                    const Target& target, int laser_planes,
                                    const ExtractionOptions& extraction) {
