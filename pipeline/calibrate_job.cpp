@@ -75,9 +75,13 @@ void guard(const CalibrateJob& job) {
   std::vector<fs::path> inputs = files_of(job.session), outputs = job.other_outputs;
   if (!job.overlay_folder.empty())
     for (const fs::path& picture : inputs)  // each in the folder of its sensor
-      for (const SessionSensor& sensor : job.session.sensors)
-        outputs.push_back(job.overlay_folder / sensor.name / (picture.stem().string() + ".png"));
-  std::sort(outputs.begin(), outputs.end());  // pictures of one name are drawn one over the other
+      for (const SessionSensor& sensor : job.session.sensors) {
+        const std::string name = picture.stem().string() + ".png";
+        outputs.push_back(job.overlay_folder / sensor.name / name);
+        outputs.push_back(job.overlay_folder / sensor.name /
+                          (picture.parent_path().filename().string() + "_" + name));
+      }
+  std::sort(outputs.begin(), outputs.end());  // some of these names only are taken
   outputs.erase(std::unique(outputs.begin(), outputs.end()), outputs.end());
   inputs.push_back(job.session_file);
   if (!job.rig.empty()) outputs.insert(outputs.end(), {job.rig, job.rig.string() + ".run.yaml"});

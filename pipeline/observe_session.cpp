@@ -75,7 +75,7 @@ StripeOnBoard stripe_without_background(const ViewTask& task, const Image8& lase
   const fs::path& file = task.laser.empty() ? task.board : task.laser;
   try {
     const GreyImage light = task.background->light_of(laser, file, channel);
-    return find_stripe_on_board(std::get<Image8>(light), ImageView8(), corners, target, planes, extraction);
+    return find_stripe_in_light(std::get<Image8>(light), corners, target, planes, extraction);
   } catch (const Error& error) {
     StripeOnBoard unknown;
     unknown.reason = error.what();

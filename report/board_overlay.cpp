@@ -3,10 +3,12 @@
 #include "report/board_overlay.h"
 
 #include <algorithm>
+#include <map>
 #include <opencv2/imgproc.hpp>
 
 #include "io/images.h"
 #include "parallel/parallel.h"
+#include "report/extraction_pictures.h"
 
 namespace lightstripe {
 namespace {
@@ -69,13 +71,17 @@ OverlayPicture draw_board(const SeenPicture& picture, int max_width_px) {
 }
 
 void write_overlays(const fs::path& folder, const std::vector<SeenPicture>& pictures) {
-  const auto draw_and_write = [&](std::size_t i) {
-    const OverlayPicture overlay = draw_board(pictures[i], 0);
-    const fs::path file =
-        folder / pictures[i].sensor / (fs::path(pictures[i].image).filename().stem().string() + ".png");
-    write_rgb_image(file, overlay.rgb, overlay.width, overlay.height);
-  };
-  parallel_for(pictures.size(), draw_and_write);
+  std::map<std::string, std::vector<std::size_t>> by_sensor;
+  for (std::size_t i = 0; i < pictures.size(); ++i) by_sensor[pictures[i].sensor].push_back(i);
+  for (const auto& [sensor, own] : by_sensor) {
+    std::vector<std::string> images;
+    for (const std::size_t i : own) images.push_back(pictures[i].board.string());
+    const std::vector<fs::path> files = overlay_files(images, folder / sensor);
+    parallel_for(own.size(), [&](std::size_t k) {
+      const OverlayPicture overlay = draw_board(pictures[own[k]], 0);
+      write_rgb_image(files[k], overlay.rgb, overlay.width, overlay.height);
+    });
+  }
 }
 
 }  // namespace lightstripe

@@ -20,7 +20,8 @@ struct OverlayPicture {
 /// corners, rows in order, and stripe points; not wider than `max_width_px` (0: full size).
 OverlayPicture draw_board(const SeenPicture& picture, int max_width_px);
 
-/// Every picture as a PNG: <folder>/<sensor>/<image>.png.
+/// Every picture as a PNG: <folder>/<sensor>/<image>.png; of pictures with the same name in two folders the
+/// second gets its folder's before it.
 void write_overlays(const std::filesystem::path& folder, const std::vector<SeenPicture>& pictures);
 
 }  // namespace lightstripe

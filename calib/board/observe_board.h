@@ -49,6 +49,11 @@ StripeOnBoard find_stripe_on_board(ImageView8 laser, ImageView8 board,
                                    const std::vector<Eigen::Vector2d>& corners, const Target& target,
                                    int laser_planes, const ExtractionOptions& extraction);
 
+/// The same in a picture of the laser's light alone, whose background is taken out already.
+StripeOnBoard find_stripe_in_light(ImageView8 light, const std::vector<Eigen::Vector2d>& corners,
+                                   const Target& target, int laser_planes,
+                                   const ExtractionOptions& extraction);
+
 /// The second half of find_stripe_on_board: of the stripes found in the whole picture the points on the
 /// board, as `laser_planes` straight lines on it, ordered by their place across the image (left to right, or
 /// top to bottom).

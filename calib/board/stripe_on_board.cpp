@@ -13,6 +13,7 @@
 #include "calib/board/board_map.h"
 #include "calib/board/board_shift.h"
 #include "calib/board/laser_look.h"
+#include "calib/board/light_without_print.h"
 #include "calib/board/observe_board.h"
 #include "calib/start/stripe_planes.h"
 #include "core/counted.h"
@@ -40,6 +41,7 @@ struct Placed {
   StripePoint point;
   Vector2d p_board;  ///< mm
   double mm_per_px;  ///< across the stripe, on the board
+  bool clear;        ///< far enough from the print's edges
 };
 
 /// How near (px) an edge may come. Where the albedo is seen through a Gaussian of deviation b, a step of it
@@ -75,7 +77,8 @@ std::vector<Placed> on_board(const std::vector<Stripe>& stripes, const BoardMap&
       const Vector2d pixel(point.x, point.y), p = map(pixel);
       if (!carries_stripes(target, p)) continue;
       const Eigen::Matrix2d J = map.derivative(pixel);
-      placed.push_back({point, p, (J * Vector2d(point.normal_x, point.normal_y)).norm()});
+      placed.push_back(
+          {point, p, (J * Vector2d(point.normal_x, point.normal_y)).norm(), !near_edge(point, p, J, target)});
     }
   }
   return placed;
@@ -117,17 +120,29 @@ double tolerance_px(const std::vector<Placed>& points, const std::vector<std::si
   return std::clamp(3 * kMadToSigma * upper_median(distances), kMinTolerancePx, kStartTolerancePx);
 }
 
-/// The line with the most points (RANSAC with fixed random numbers), refitted to those that belong to it.
+/// Clear points decide, so that a row of the squares' edges does not win against the stripe.
+double votes(const std::vector<Placed>& points, const std::vector<std::size_t>& chosen) {
+  constexpr double kNearEdge = 0.01;
+  double sum = 0;
+  for (const auto i : chosen) sum += points[i].clear ? 1 : kNearEdge;
+  return sum;
+}
+
+/// The line with the most votes (RANSAC with fixed random numbers), refitted to those that belong to it.
 std::vector<std::size_t> best_line(const std::vector<Placed>& points) {
   std::vector<std::size_t> best;
   if (points.size() < kMinPoints) return best;
   Random random(points.size());
+  double most = 0;
   for (int trial = 0; trial < kTrials; ++trial) {
     const auto a = static_cast<std::size_t>(random.uniform() * static_cast<double>(points.size()));
     const auto b = static_cast<std::size_t>(random.uniform() * static_cast<double>(points.size()));
     if ((points[a].p_board - points[b].p_board).norm() < 1e-6) continue;
     auto chosen = within(points, line_through(points[a].p_board, points[b].p_board), kStartTolerancePx);
-    if (chosen.size() > best.size()) best = std::move(chosen);
+    const double sum = votes(points, chosen);
+    if (sum <= most) continue;
+    most = sum;
+    best = std::move(chosen);
   }
   for (int i = 0; i < 3 && best.size() >= kMinPoints; ++i) {
     const Line line = fitted(points, best);
@@ -216,8 +231,7 @@ StripeOnBoard select_stripes(const std::vector<Stripe>& stripes, const std::vect
     }
     std::vector<StripePoint> kept;
     for (const auto& p : take_line(points, chosen))
-      if (!near_edge(p.point, p.p_board, map->derivative({p.point.x, p.point.y}), target))
-        kept.push_back(p.point);
+      if (p.clear) kept.push_back(p.point);
     if (const auto clear = independent_points(kept).size(); clear < kMinStripePoints)
       result.reason = fmt::format(
           "only {} of the squares' edges; larger squares, or a thinner line, leave more",
@@ -235,11 +249,10 @@ std::vector<Stripe> lines_on_pattern(ImageView8 image, ExtractionOptions extract
   return extract_stripes(image, extraction).stripes;
 }
 
-/// Board and stripe in one picture: the line must look like a laser's.
-StripeOnBoard find_in_one_picture(ImageView8 image, const std::vector<Vector2d>& corners,
-                                  const Target& target, int laser_planes,
-                                  const ExtractionOptions& extraction) {
-  StripeOnBoard result = select_stripes(lines_on_pattern(image, extraction), corners, target, laser_planes);
+/// The stripe in `light`, which is `image` or its laser light: the line must look like a laser's.
+StripeOnBoard find_laser_line(ImageView8 light, ImageView8 image, const std::vector<Vector2d>& corners,
+                              const Target& target, int laser_planes, const ExtractionOptions& extraction) {
+  StripeOnBoard result = select_stripes(lines_on_pattern(light, extraction), corners, target, laser_planes);
   for (const auto& line : result.planes) {
     const std::string why = no_laser_because(image, line, corners, target);
     if (why.empty()) continue;
@@ -250,7 +263,25 @@ StripeOnBoard find_in_one_picture(ImageView8 image, const std::vector<Vector2d>&
   return result;
 }
 
+/// Board and stripe in one picture. Among light squares a stripe is no more than short pieces, and less than
+/// the print's own contrast: it is looked for without the print first.
+StripeOnBoard find_in_one_picture(ImageView8 image, const std::vector<Vector2d>& corners,
+                                  const Target& target, int laser_planes,
+                                  const ExtractionOptions& extraction) {
+  if (const auto light = light_without_print(image, corners, target)) {
+    StripeOnBoard result = find_laser_line(light->view(), image, corners, target, laser_planes, extraction);
+    if (result.reason.empty()) return result;
+  }
+  return find_laser_line(image, image, corners, target, laser_planes, extraction);
+}
+
 }  // namespace
+
+StripeOnBoard find_stripe_in_light(ImageView8 light, const std::vector<Vector2d>& corners,
+                                   const Target& target, int laser_planes,
+                                   const ExtractionOptions& extraction) {
+  return find_laser_line(light, light, corners, target, laser_planes, extraction);
+}
 
 StripeOnBoard find_stripe_on_board(ImageView8 laser, ImageView8 board, const std::vector<Vector2d>& corners,
                                    const Target& target, int laser_planes,

@@ -9,6 +9,7 @@
 
 #include "calib/adjust/reduced_covariance.h"
 #include "calib/adjust/solve_problem.h"
+#include "core/robust.h"
 #include "parallel/parallel.h"
 
 namespace lightstripe {
@@ -51,9 +52,11 @@ CameraViews camera_views(const InitialValues& values, int sensor, std::size_t fo
   return result;
 }
 
-/// Mean squared error of each view's corners, px^2, without the largest twentieth of them: outliers.
-std::vector<double> view_errors(const CameraViews& views) {
-  std::vector<std::vector<double>> squares(views.session.views.size());
+/// Squared errors of each view's corners, px^2; infinity where the camera cannot see them.
+using ViewSquares = std::vector<std::vector<double>>;
+
+ViewSquares corner_squares(const CameraViews& views) {
+  ViewSquares squares(views.session.views.size());
   const auto& camera = views.state.sensors[0].camera;
   for (const auto& m : views.list) {
     const auto xy = views.session.target.corner(static_cast<int>(m.index));
@@ -63,32 +66,49 @@ std::vector<double> view_errors(const CameraViews& views) {
     const auto& seen = views.session.views[m.view].corners[m.index];
     squares[m.view].push_back(q ? (*q - seen).squaredNorm() : std::numeric_limits<double>::infinity());
   }
-  std::vector<double> errors;
-  for (auto& of_view : squares) {
-    std::sort(of_view.begin(), of_view.end());
-    of_view.resize(of_view.size() - of_view.size() / 20);
-    double sum = 0;
-    for (const double square : of_view) sum += square;
-    errors.push_back(sum / static_cast<double>(std::max<std::size_t>(1, of_view.size())));
-  }
-  return errors;
+  return squares;
 }
 
-/// Solves for what the options leave free; false where that fails, or the views leave a term open.
+/// How large a corner's squared error may be, given its view's: beyond it the corner itself is wrong, under
+/// the laser's line or behind a hand.
+double outlier_limit(const std::vector<double>& squares) {
+  constexpr double kSigmas = 5;
+  constexpr double kMedianOfSquares = 1.386;  // of two coordinates, over sigma^2
+  return kSigmas * kSigmas * median(squares) / kMedianOfSquares;
+}
+
+std::vector<Residual> without_outliers(const CameraViews& views) {
+  const ViewSquares squares = corner_squares(views);
+  std::vector<double> limits;
+  for (const auto& of_view : squares) limits.push_back(of_view.empty() ? 0 : outlier_limit(of_view));
+  std::vector<std::size_t> next(squares.size());
+  std::vector<Residual> kept;
+  for (const Residual& m : views.list)
+    if (squares[m.view][next[m.view]++] <= limits[m.view]) kept.push_back(m);
+  return kept;
+}
+
+/// Solves for what the options leave free, twice: the second time without corners that are wrong. False where
+/// that fails, or the views leave a term open.
 bool solve(CameraViews& views, LensModel lens, bool board_warp) {
   constexpr double kMaxCondition = 1e10;  // brown4 and tilted models have 1e6 to 1e8
   constexpr double kRobustScale = 30;     // of 0.1 px: gross errors only
-  JointProblem joint(views.session, views.state, views.list,
-                     {{lens}, board_warp, ProblemOptions::Loss::kHuber, kRobustScale});
-  const auto summary = solve_problem(joint, 30, 1e-7);
-  views.state = joint.state();
-  return summary.IsSolutionUsable() &&
-         (joint.num_globals() == 0 || reduced_covariance(joint).condition < kMaxCondition);
+  const auto solved = [&](const std::vector<Residual>& list) {
+    JointProblem joint(views.session, views.state, list,
+                       {{lens}, board_warp, ProblemOptions::Loss::kHuber, kRobustScale});
+    const auto summary = solve_problem(joint, 30, 1e-7);
+    views.state = joint.state();
+    return summary.IsSolutionUsable() &&
+           (joint.num_globals() == 0 || reduced_covariance(joint).condition < kMaxCondition);
+  };
+  if (!solved(views.list)) return false;
+  const auto kept = without_outliers(views);
+  return kept.size() == views.list.size() || solved(kept);
 }
 
 /// Errors of the views of `fold` under a model fitted to the others; empty where there is none, or it folds.
-std::vector<double> held_out_errors(const InitialValues& values, int sensor, std::size_t fold, LensModel lens,
-                                    bool board_warp) {
+ViewSquares held_out_squares(const InitialValues& values, int sensor, std::size_t fold, LensModel lens,
+                             bool board_warp) {
   CameraViews train = camera_views(values, sensor, 1 - fold), test = camera_views(values, sensor, fold);
   if (has_tilt(lens))
     train.state.sensors[0].camera.distortion[2] = train.state.sensors[0].camera.distortion[3] = 0;
@@ -97,7 +117,7 @@ std::vector<double> held_out_errors(const InitialValues& values, int sensor, std
   test.state.board_warp_mm = train.state.board_warp_mm;
   test.session.given_cameras[0] = GivenCamera{test.state.sensors[0].camera, true};
   if (!solve(test, lens, false)) return {};
-  return view_errors(test);
+  return corner_squares(test);
 }
 
 double mean(const std::vector<double>& values) {
@@ -115,6 +135,40 @@ bool clearly_larger(const std::vector<double>& a, const std::vector<double>& b, 
   for (std::size_t i = 0; i < a.size(); ++i)
     variance += (a[i] - b[i] - difference) * (a[i] - b[i] - difference) / (n - 1);
   return difference > std::max(kNothing_px2, standard_errors * std::sqrt(variance / n));
+}
+
+/// A model and what it leaves of the views' corners.
+struct Held {
+  LensModel lens;
+  ViewSquares squares;
+};
+
+/// Of each corner the least that any model leaves.
+ViewSquares least_squares_of(const std::vector<Held>& models) {
+  ViewSquares least = models.front().squares;
+  for (const Held& model : models)
+    for (std::size_t v = 0; v < least.size(); ++v)
+      for (std::size_t c = 0; c < least[v].size(); ++c)
+        least[v][c] = std::min(least[v][c], model.squares[v][c]);
+  return least;
+}
+
+/// Mean squared error of each view's corners, px^2, without those that no model explains, which would drown
+/// what the models differ in.
+std::vector<double> view_errors(const ViewSquares& squares, const ViewSquares& least) {
+  std::vector<double> errors;
+  for (std::size_t v = 0; v < squares.size(); ++v) {
+    if (squares[v].empty()) continue;
+    const double limit = outlier_limit(least[v]);
+    double sum = 0, count = 0;
+    for (std::size_t c = 0; c < squares[v].size(); ++c) {
+      if (least[v][c] > limit) continue;
+      sum += squares[v][c];
+      ++count;
+    }
+    errors.push_back(sum / count);
+  }
+  return errors;
 }
 
 using Tried = std::pair<LensModel, std::vector<double>>;  // a model and its errors by view
@@ -143,6 +197,27 @@ LensModel leanest_worth_it(const std::vector<Tried>& tried) {
   return chosen->first;
 }
 
+/// Of the models that both halves of the views can be fitted by.
+std::vector<Tried> held_out_errors(const InitialValues& values, int sensor, bool board_warp) {
+  std::array<std::array<ViewSquares, 2>, kCandidates.size()> halves;
+  const auto try_lens = [&](std::size_t i) {
+    halves[i / 2][i % 2] = held_out_squares(values, sensor, i % 2, kCandidates[i / 2], board_warp);
+  };
+  parallel_for(2 * kCandidates.size(), try_lens);
+  std::vector<Held> models;
+  for (std::size_t i = 0; i < kCandidates.size(); ++i) {
+    auto& [squares, rest] = halves[i];
+    if (squares.empty() || rest.empty()) continue;
+    squares.insert(squares.end(), rest.begin(), rest.end());
+    models.push_back({kCandidates[i], std::move(squares)});
+  }
+  std::vector<Tried> tried;
+  if (models.empty()) return tried;
+  const ViewSquares least = least_squares_of(models);
+  for (const Held& model : models) tried.emplace_back(model.lens, view_errors(model.squares, least));
+  return tried;
+}
+
 }  // namespace
 
 LensChoice choose_lens(const InitialValues& values, int sensor, const CalibrationOptions& options) {
@@ -153,18 +228,11 @@ LensChoice choose_lens(const InitialValues& values, int sensor, const Calibratio
       std::count_if(values.session.views.begin(), values.session.views.end(),
                     [&](const auto& v) { return v.sensor == sensor && v.pose >= 0 && !v.height_mm; });
   if (static_cast<std::size_t>(views) < kMinViews) return choice;
-  std::array<std::array<std::vector<double>, 2>, kCandidates.size()> halves;
-  const auto try_lens = [&](std::size_t i) {
-    halves[i / 2][i % 2] = held_out_errors(values, sensor, i % 2, kCandidates[i / 2], options.board_warp);
-  };
-  parallel_for(2 * kCandidates.size(), try_lens);
   std::vector<Tried> tried;
-  for (std::size_t i = 0; i < kCandidates.size(); ++i) {
-    auto errors = halves[i][0];
-    errors.insert(errors.end(), halves[i][1].begin(), halves[i][1].end());
-    if (halves[i][0].empty() || halves[i][1].empty() || !std::isfinite(mean(errors))) continue;
-    choice.trials.push_back({kCandidates[i], std::sqrt(mean(errors))});
-    tried.emplace_back(kCandidates[i], std::move(errors));
+  for (const auto& [lens, errors] : held_out_errors(values, sensor, options.board_warp)) {
+    if (!std::isfinite(mean(errors))) continue;
+    choice.trials.push_back({lens, std::sqrt(mean(errors))});
+    tried.emplace_back(lens, errors);
   }
   if (tried.empty()) return choice;
   choice.lens = leanest_worth_it(tried);
