@@ -14,6 +14,7 @@
 #include "io/images.h"
 #include "io/output_guard.h"
 #include "pipeline/features_job.h"
+#include "report/calibration_error_text.h"
 #include "report/cloud_deviation.h"
 #include "report/features_report.h"
 #include "report/measure_report.h"
@@ -107,6 +108,7 @@ int run_features(const MeasureArguments& arguments) {
                                                             estimate.sigma.value_or(0))
                                               : estimate.reason));
   }
+  tell(arguments.common, describe_calibration_error(result.rig, result.calibration, job.profiles));
   say(arguments.common, fmt::format("{} of {} complete -> {}", result.num_complete,
                                     counted(result.rows.size(), "section"), job.table.string()));
   return result.num_complete > 0 || result.file.measurements.empty()
@@ -171,8 +173,10 @@ void add_measure_command(CLI::App& app, Command& run) {
   add_choice<SectionFormat>(*command, "--export-format", arguments->job.export_format,
                             {{"miniprof", SectionFormat::kMiniProf}, {"simpack", SectionFormat::kSimpack}},
                             "miniprof or simpack [miniprof]");
-  command->add_option("--rig", arguments->job.rig,
-                      "rig file: what its calibration errs by counts in the predicted errors");
+  command->add_option(
+      "--rig", arguments->job.rig,
+      "rig file: what its calibration errs by counts in the predicted errors [the rig that the "
+      "sections' record (PROFILES.run.yaml) names, if it is still the same]");
   add_common_options(*command, arguments->common,
                      "table of measurements, .csv or .xlsx (default: measurements.csv)");
   add_field_options<RailOptions>(*command, "", arguments->rail);

@@ -28,7 +28,8 @@ void add_merge_command(CLI::App& app, Command& run) {
     run = [arguments] {
       MergeJob& job = arguments->job;
       job.output = arguments->common.output;
-      merge(job);
+      const MergeResult result = merge(job);
+      for (const std::string& warning : result.warnings) warn(warning);
       say(arguments->common, fmt::format("{} -> {}", counted(job.parts.size(), "part"), job.output.string()));
       return kExitDone;
     };

@@ -109,12 +109,16 @@ void assess(const SessionViews& session, const JointAdjustment& adjustment,
   auto& quality = result.rig.quality;
   append(quality.warnings, warnings_about(session, adjustment, result.summary.views, spreads));
   quality.sigma = parameter_sigmas(session, adjustment);
-  const auto section = section_uncertainty(session, adjustment, up);
+  const SectionErrors errors = section_errors(session, adjustment, up);
+  const auto section = section_uncertainty(errors, adjustment.covariance);
   quality.section_shape_sigma_mm = section.shape_mm;
   quality.section_absolute_sigma_mm = section.absolute_mm;
-  if (session.motion != MotionType::kRotary) quality.section_bends = section_bends(session, adjustment, up);
+  quality.section_bends = session.motion == MotionType::kRotary
+                              ? section_bends(axial_section_errors(adjustment, up, errors.samples),
+                                              adjustment.covariance, SectionFreedom::kAlongAxis)
+                              : section_bends(errors, adjustment.covariance, SectionFreedom::kRigid);
   const CalibrationDiagnosis& diagnosis =
-      result.diagnosis.emplace(diagnose(session, adjustment, spreads, up, options));
+      result.diagnosis.emplace(diagnose(session, adjustment, spreads, errors, up, options));
   if (diagnosis.cross_validation.done) quality.cross_validation_ratio = diagnosis.cross_validation.ratio();
   quality.weakest = diagnosis.weakest;
   append(quality.warnings, warnings_about(diagnosis.cross_validation));

@@ -6,6 +6,17 @@
 #include <cmath>
 
 namespace lightstripe {
+namespace {
+
+bool is_deviation(const std::string& name) { return name == "radial_deviation" || name == "axial_deviation"; }
+
+void add_bend(const ConicityRow& bent, ConicityRow& row) {
+  if (!bent.tan_gamma_e || !row.tan_gamma_e || !row.sigma) return;
+  row.sigma = std::hypot(*row.sigma, *bent.tan_gamma_e - *row.tan_gamma_e);
+}
+
+}  // namespace
+
 Profile bent(const Profile& profile, const SectionBends& bends, std::size_t bend) {
   Profile out = profile;
   for (ProfilePoint& p : out.points) {
@@ -21,10 +32,23 @@ void add_bend(const Estimate& bent, Estimate& estimate) {
 }
 
 void add_bends(const std::vector<MeasuredFrame>& bent_rows, MeasuredFrame& row) {
-  for (const MeasuredFrame& bent : bent_rows)
+  for (const MeasuredFrame& bent : bent_rows) {
     for (auto of : {&MeasuredFrame::estimates, &MeasuredFrame::extras})
       for (std::size_t i = 0; i < std::min((row.*of).size(), (bent.*of).size()); ++i)
-        add_bend((bent.*of)[i].estimate, (row.*of)[i].estimate);
+        if (!is_deviation((row.*of)[i].name)) add_bend((bent.*of)[i].estimate, (row.*of)[i].estimate);
+    for (std::size_t i = 0; i < std::min(row.conicity.size(), bent.conicity.size()); ++i)
+      add_bend(bent.conicity[i], row.conicity[i]);
+  }
 }
+
+void add_bends(const std::vector<MeasuredFeatures>& bent_rows, MeasuredFeatures& row) {
+  for (const MeasuredFeatures& bent : bent_rows)
+    for (std::size_t i = 0; i < row.quantities.size(); ++i) add_bend(bent.quantities[i], row.quantities[i]);
+}
+
+bool shows_anything(const MeasuredFrame& row) {
+  return row.registration.usable() || (row.right_registration && row.right_registration->usable());
+}
+bool shows_anything(const MeasuredFeatures&) { return true; }
 
 }  // namespace lightstripe

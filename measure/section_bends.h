@@ -4,22 +4,42 @@
 // shows it.
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "core/section_bends.h"
+#include "measure/features.h"
 #include "measure/measure_profile.h"
 
 namespace lightstripe {
 
-/// The profile with u, v as they would be if the calibration erred by `bend` as well. Not for rotary motion,
-/// whose u, v are not y, z of the rig frame.
+/// The profile with u, v as they would be if the calibration erred by `bend` as well.
 Profile bent(const Profile& profile, const SectionBends& bends, std::size_t bend);
 
 /// Adds to the sigma, in quadrature, what one bend does to the value; nothing where either value is unknown.
 void add_bend(const Estimate& bent, Estimate& estimate);
 
 /// Adds to each sigma of `row` what the bends do to its value: `bent_rows` are measured from the bent
-/// profiles, one a bend (GUM 5.1.2, with differences in the place of derivatives).
+/// profiles, one a bend (GUM 5.1.2, with differences in the place of derivatives). A wheel's radial and axial
+/// deviation get nothing: they are differences to the scan's mean, out of which a common error falls.
 void add_bends(const std::vector<MeasuredFrame>& bent_rows, MeasuredFrame& row);
+void add_bends(const std::vector<MeasuredFeatures>& bent_rows, MeasuredFeatures& row);
+
+/// Whether a row has values that bends could change.
+bool shows_anything(const MeasuredFrame& row);
+bool shows_anything(const MeasuredFeatures& row);
+
+/// The row `measure(std::nullopt)` with what `count` independent errors do to it: `measure(i)` is the row
+/// under the i-th of them, of which only the values are looked at.
+template <class Measure>
+auto measure_with_errors(std::size_t count, const Measure& measure) {
+  auto row = measure(std::optional<std::size_t>());
+  if (!shows_anything(row)) return row;
+  std::vector<decltype(row)> under_errors;
+  for (std::size_t i = 0; i < count; ++i) under_errors.push_back(measure(std::optional(i)));
+  add_bends(under_errors, row);
+  return row;
+}
 
 }  // namespace lightstripe

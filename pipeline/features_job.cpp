@@ -8,7 +8,6 @@
 #include "io/atomic_file.h"
 #include "io/number_text.h"
 #include "io/output_guard.h"
-#include "io/rig_file.h"
 #include "io/tables.h"
 #include "io/yaml_binding.h"
 #include "measure/section_bends.h"
@@ -55,7 +54,7 @@ std::string features_table(const FeaturesResult& result) {
   std::string out = "frame,travel";
   for (const QuantityRecipe& one : result.file.measurements)
     out += ',' + csv_cell(one.name) + ',' + csv_cell(one.name + "_sigma");
-  out += ",status,verdict,missing\n";
+  out += ",status,verdict,missing,calibration_error\n";
   for (const MeasuredFeatures& row : result.rows) {
     append_integer(out, row.frame);
     out.push_back(',');
@@ -63,54 +62,73 @@ std::string features_table(const FeaturesResult& result) {
     for (const Estimate& estimate : row.quantities) append_estimate(out, estimate);
     const std::string missing = missing_of(row, result.file);
     out += missing.empty() ? ",ok," : ",incomplete,";
-    out += row.verdict + ',' + (missing.empty() ? "" : csv_cell(missing)) + '\n';
+    out += row.verdict + ',' + (missing.empty() ? "" : csv_cell(missing)) + ',' +
+           calibration_word(result.calibration) + '\n';
   }
   return out;
 }
 
 namespace {
 
-/// With what the calibration's error does to each quantity.
-MeasuredFeatures measure_with_bends(const Profile& profile, const FeatureFile& file,
-                                    const SectionBends& bends) {
-  MeasuredFeatures row = measure_features(profile, file);
-  for (std::size_t b = 0; b < bends.bends.size(); ++b) {
-    const MeasuredFeatures other = measure_features(bent(profile, bends, b), file);
-    for (std::size_t i = 0; i < row.quantities.size(); ++i) add_bend(other.quantities[i], row.quantities[i]);
+/// The sections' rows and what is measured along them, with what the calibration's error does to each.
+void measure_all(FeaturesResult& result) {
+  const SectionBends& bends = result.calibration.bends;
+  result.rows.resize(result.profiles.size());
+  // Kept only for what is measured over all of them.
+  std::vector<std::vector<MeasuredFeatures>> bent_rows;
+  if (!result.file.along.empty()) bent_rows.assign(bends.bends.size(), result.rows);
+  parallel_for(result.profiles.size(), [&](std::size_t i) {
+    result.rows[i] = measure_with_errors(bends.bends.size(), [&](std::optional<std::size_t> bend) {
+      if (!bend) return measure_features(result.profiles[i], result.file);
+      MeasuredFeatures row = measure_features(bent(result.profiles[i], bends, *bend), result.file);
+      if (!bent_rows.empty()) bent_rows[*bend][i] = row;
+      return row;
+    });
+  });
+  result.along = measure_along(result.rows, result.file);
+  for (const auto& rows : bent_rows) {
+    const std::vector<Estimate> under_bend = measure_along(rows, result.file);
+    for (std::size_t i = 0; i < result.along.size(); ++i) add_bend(under_bend[i], result.along[i]);
   }
-  return row;
+  for (const MeasuredFeatures& row : result.rows)
+    result.num_complete += std::all_of(row.quantities.begin(), row.quantities.end(),
+                                       [](const Estimate& e) { return e.value.has_value(); })
+                               ? 1
+                               : 0;
+}
+
+void guard(const FeaturesJob& job, const RigOfSections& rig) {
+  std::vector<std::filesystem::path> outputs = job.other_outputs;
+  outputs.insert(outputs.end(), {job.table, job.table.string() + ".run.yaml", along_file(job.table)});
+  guard_outputs({job.profiles, job.profiles.string() + ".run.yaml", job.features, rig.file}, outputs);
+}
+
+void write_results(const FeaturesJob& job, FeaturesResult& result) {
+  write_file(job.table, features_table(result));
+  if (!result.along.empty()) {
+    result.along_table = along_file(job.table);
+    write_file(result.along_table, along_table(result));
+  }
+  std::vector<std::filesystem::path> inputs{job.profiles, job.features};
+  if (!result.rig.file.empty()) inputs.push_back(result.rig.file);
+  write_run_record(job.table, "measure", inputs, calibration_yaml(result.calibration) + "kind: features\n");
 }
 
 }  // namespace
 
 FeaturesResult measure_features_job(const FeaturesJob& job) {
   const JobThreads threads(job.threads);
-  std::vector<std::filesystem::path> outputs = job.other_outputs;
-  outputs.insert(outputs.end(), {job.table, along_file(job.table)});
-  guard_outputs({job.profiles, job.features, job.rig}, outputs);
   FeaturesResult result;
+  result.rig = rig_of_sections(job.profiles, job.rig);
+  guard(job, result.rig);
   read_yaml(job.features, result.file);
   result.file.check(job.features.string());
   result.profiles = read_profiles(job.profiles);
   if (result.profiles.empty())
     throw Error(job.profiles.string(), "has no rows", "give the sections of a scan");
-  result.rows.resize(result.profiles.size());
-  const SectionBends bends =
-      job.rig.empty() ? SectionBends{} : read_rig(job.rig).quality.section_bends.value_or(SectionBends{});
-  parallel_for(result.profiles.size(), [&](std::size_t i) {
-    result.rows[i] = measure_with_bends(result.profiles[i], result.file, bends);
-  });
-  result.along = measure_along(result.rows, result.file);
-  for (const MeasuredFeatures& row : result.rows)
-    result.num_complete += std::all_of(row.quantities.begin(), row.quantities.end(),
-                                       [](const Estimate& e) { return e.value.has_value(); })
-                               ? 1
-                               : 0;
-  write_file(job.table, features_table(result));
-  if (!result.along.empty()) {
-    result.along_table = along_file(job.table);
-    write_file(result.along_table, along_table(result));
-  }
+  result.calibration = calibration_errors(result.rig.file, job.profiles, result.profiles);
+  measure_all(result);
+  write_results(job, result);
   return result;
 }
 

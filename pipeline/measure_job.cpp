@@ -12,7 +12,6 @@
 #include "core/error.h"
 #include "io/atomic_file.h"
 #include "io/output_guard.h"
-#include "io/rig_file.h"
 #include "io/yaml_binding.h"
 #include "measure/measure_track.h"
 #include "measure/profile_formats.h"
@@ -26,19 +25,19 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// How well the rig knows the distance from its axis: the larger of the axis point's sigmas; nothing if the
-/// rig says none.
-std::optional<double> axis_sigma(const fs::path& rig_file, std::vector<std::string>& warnings) {
-  std::optional<double> largest;
-  for (const auto& [name, sigma] : read_rig(rig_file).quality.sigma)
-    if (name.find("axis_point") != std::string::npos) largest = std::max(largest.value_or(0), sigma);
-  if (!largest) warnings.push_back(rig_file.string() + " says no error of its axis: the diameter gets none");
-  return largest;
+/// A wheel's diameter errs by the distance from the axis.
+void take_axis_sigma(const RigOfSections& rig, const CalibrationErrors& errors, MeasureInput& input,
+                     std::vector<std::string>& warnings) {
+  input.wheel.axis_sigma_mm = errors.axis_sigma_mm;
+  const bool has_diameter = input.wheel.radial || input.wheel.radius_offset_mm;
+  if (input.kind == ObjectKind::kWheel && has_diameter && !rig.file.empty() && !errors.axis_sigma_mm)
+    warnings.push_back(rig.file.string() + " says no error of its axis: the diameter gets none");
 }
 
-std::string effective_options(const MeasureJob& job) {
-  std::string text = fmt::format("kind: {}\nregistration:\n{}", kind_name(job.kind),
-                                 indented(dump_yaml(job.options.registration)));
+std::string effective_options(const MeasureJob& job, const CalibrationErrors& errors) {
+  std::string text = calibration_yaml(errors);
+  text += fmt::format("kind: {}\nregistration:\n{}", kind_name(job.kind),
+                      indented(dump_yaml(job.options.registration)));
   text += job.kind == ObjectKind::kRail ? "rail:\n" + indented(dump_yaml(job.options.rail))
                                         : "wheel:\n" + indented(dump_yaml(job.options.wheel));
   return text + "limits:\n" + indented(dump_yaml(job.limits));
@@ -95,11 +94,11 @@ std::string why_not_usable(const MeasureJob& job, const MeasureResult& result) {
                            counted(result.rows.size(), "frame"));
 }
 
-void guard(const MeasureJob& job) {
+void guard(const MeasureJob& job, const RigOfSections& rig) {
   std::vector<fs::path> inputs = job.other_inputs, outputs = job.other_outputs;
-  inputs.insert(inputs.end(),
-                {job.profiles, job.rig, job.reference.nominal, job.reference.baseline,
-                 job.reference.nominal_right, job.reference.wheelset, job.reference.wheelset_right});
+  inputs.insert(inputs.end(), {job.profiles, job.profiles.string() + ".run.yaml", rig.file,
+                               job.reference.nominal, job.reference.baseline, job.reference.nominal_right,
+                               job.reference.wheelset, job.reference.wheelset_right});
   if (!job.table.empty()) outputs.insert(outputs.end(), {job.table, job.table.string() + ".run.yaml"});
   outputs.push_back(job.conicity_table);
   guard_outputs(inputs, outputs);
@@ -116,20 +115,22 @@ void guard(const MeasureJob& job) {
   }
 }
 
-MeasureResult prepare(const MeasureJob& job) {
+MeasureResult prepare(const MeasureJob& job, const RigOfSections& rig) {
   check_required(job);
   if (!job.conicity_table.empty() && job.reference.wheelset.empty())
     throw Error("--conicity", "needs a wheelset", "name its wheels with --wheelset, e.g. S1002");
   std::vector<std::string> warnings;
   MeasureInput input = read_measure_input(job.profiles.string(), job.kind);
-  if (!job.rig.empty() && job.kind == ObjectKind::kWheel)
-    input.wheel.axis_sigma_mm = axis_sigma(job.rig, warnings);
+  CalibrationErrors errors = calibration_errors(rig.file, job.profiles, input.profiles);
+  take_axis_sigma(rig, errors, input, warnings);
   if (input.further_profiles > 0)
     warnings.push_back(fmt::format("{} holds {} profiles: the first one is measured", job.profiles.string(),
                                    input.further_profiles + 1));
-  MeasureReferences references(job.reference, input, job.options, job.rig);
+  MeasureReferences references(job.reference, input, job.options, errors);
   if (references.identified()) warn_of_likeness(*references.identified(), warnings);
   MeasureResult result{std::move(input), std::move(references), {}};
+  result.rig = rig;
+  result.calibration = std::move(errors);
   result.warnings = std::move(warnings);
   result.extra_columns = result.references.extra_columns();
   result.rows.resize(result.input.profiles.size());
@@ -140,12 +141,13 @@ void write_results(const MeasureJob& job, const MeasureResult& result) {
   if (!job.table.empty()) {
     if (job.table.extension() == ".xlsx")
       write_measurement_workbook(job.table, result.rows, job.kind, result.extra_columns, result.verdicts,
-                                 job.limits);
+                                 job.limits, calibration_word(result.calibration));
     else
-      write_file(job.table, measurement_table(result.rows, job.kind, result.extra_columns, result.verdicts));
+      write_file(job.table, measurement_table(result.rows, job.kind, result.extra_columns, result.verdicts,
+                                              calibration_word(result.calibration)));
     std::vector<fs::path> inputs{job.profiles};
-    if (!job.rig.empty()) inputs.push_back(job.rig);
-    write_run_record(job.table, "measure", inputs, effective_options(job));
+    if (!result.rig.file.empty()) inputs.push_back(result.rig.file);
+    write_run_record(job.table, "measure", inputs, effective_options(job, result.calibration));
   }
   if (!job.conicity_table.empty()) write_file(job.conicity_table, track_conicity_table(result.rows));
   if (!job.export_folder.empty()) export_sections(job, result);
@@ -155,8 +157,9 @@ void write_results(const MeasureJob& job, const MeasureResult& result) {
 
 MeasureResult measure(const MeasureJob& job, const ProgressCallback& progress, const std::stop_token& stop) {
   const JobThreads threads(job.threads);
-  guard(job);
-  MeasureResult result = prepare(job);
+  const RigOfSections rig = rig_of_sections(job.profiles, job.rig);
+  guard(job, rig);
+  MeasureResult result = prepare(job, rig);
   const std::vector<Profile>& profiles = result.input.profiles;
   StepCounter steps("measuring", "frames", static_cast<std::int64_t>(profiles.size()), progress);
   parallel_for(profiles.size(), [&](std::size_t i) {

@@ -14,6 +14,7 @@
 #include "pipeline/job.h"
 #include "pipeline/measure_input.h"
 #include "pipeline/measure_references.h"
+#include "pipeline/rig_of_sections.h"
 
 namespace lightstripe {
 
@@ -23,7 +24,8 @@ struct MeasureJob {
   std::filesystem::path profiles;  ///< profiles.csv, or one section as .ban .whl .mpt .prr .prw
   ObjectKind kind = ObjectKind::kRail;
   ReferenceChoice reference;
-  std::filesystem::path rig;  ///< rig file, for the predicted error of diameter and gauge; empty: none
+  /// Rig file, for what the calibration errs by; empty: the one that the sections' record names.
+  std::filesystem::path rig;
   MeasureOptions options;
   Limits limits;
   std::filesystem::path table = "measurements.csv";  ///< .csv or .xlsx; empty: not written
@@ -38,6 +40,8 @@ struct MeasureResult {
   MeasureInput input;  ///< the sections as they were read, one a row
   MeasureReferences references;
   std::vector<MeasuredFrame> rows;
+  RigOfSections rig{};                       ///< whose calibration's error was looked for
+  CalibrationErrors calibration{};           ///< what was found of it, and whether it counts in the sigmas
   std::vector<std::string> verdicts{};       ///< of each row against the limits: pass, fail, unknown or empty
   std::vector<std::string> extra_columns{};  ///< names of the rows' extras
   std::optional<RunOut> run_out{};           ///< of a wheel

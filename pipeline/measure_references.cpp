@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
-#include "io/rig_file.h"
 #include "measure/section_bends.h"
 #include "measure/track_gauge.h"
 #include "pipeline/conicity_job.h"
@@ -59,24 +58,21 @@ MeasuredFrame without_reference(const Profile& profile, const MeasuredObject& ob
 }  // namespace
 
 MeasureReferences::MeasureReferences(const ReferenceChoice& choice, const MeasureInput& input,
-                                     const MeasureOptions& options, const std::filesystem::path& rig_file)
+                                     const MeasureOptions& options, const CalibrationErrors& errors)
     : identified_(identify(choice, input, options)),
-      nominal_(read_reference(identified_ ? identified_->name : choice.nominal, input.kind)) {
+      nominal_(read_reference(identified_ ? identified_->name : choice.nominal, input.kind)),
+      errors_(errors) {
   if (!choice.two_rails && !choice.nominal_right.empty())
     throw Error("--nominal-right", "is the second of two rails", "add --rails two");
   if (!choice.two_rails && !choice.wheelset.empty())
     throw Error("--wheelset", "runs on a track", "add --rails two, or use `lightstripe conicity` for a pair");
   if (choice.two_rails) {
-    if (!choice.wheelset.empty()) wheelset_ = read_wheelset(choice);
+    if (!choice.wheelset.empty()) {
+      wheelset_ = wheelset_without_sigma_ = read_wheelset(choice);
+      wheelset_without_sigma_->options.draws = 0;
+    }
     between_u_ = place_between(choice, input);
     if (!choice.nominal_right.empty()) right_ = read_reference(choice.nominal_right, input.kind);
-  }
-  if (!rig_file.empty()) {
-    const RigQuality quality = read_rig(rig_file).quality;
-    if (choice.two_rails && quality.section_absolute_sigma_mm > 0)
-      rig_sigma_mm_ = quality.section_absolute_sigma_mm;
-    // A track's gauge and conicity take the rig's error as rig_sigma_mm_.
-    if (!choice.two_rails) bends_ = quality.section_bends.value_or(SectionBends{});
   }
   if (!choice.baseline.empty()) baseline_ = read_baseline(choice.baseline, nominal_, options);
 }
@@ -88,19 +84,19 @@ const ReferenceShape& MeasureReferences::at(double travel) const {
 
 MeasuredFrame MeasureReferences::measure(const Profile& profile, const MeasureInput& input,
                                          const MeasureOptions& options) const {
-  MeasuredFrame row = measure_seen(profile, input, options);
-  std::vector<MeasuredFrame> bent_rows;
-  for (std::size_t i = 0; i < bends_.bends.size() && row.registration.usable(); ++i)
-    bent_rows.push_back(measure_seen(bent(profile, bends_, i), input, options));
-  add_bends(bent_rows, row);
-  return row;
+  return measure_with_errors(errors_.bends.bends.size(), [&](std::optional<std::size_t> bend) {
+    if (!bend) return measure_seen(profile, input, options, wheelset_ ? &*wheelset_ : nullptr);
+    return measure_seen(bent(profile, errors_.bends, *bend), input, options,
+                        wheelset_ ? &*wheelset_without_sigma_ : nullptr);
+  });
 }
 
 MeasuredFrame MeasureReferences::measure_seen(const Profile& profile, const MeasureInput& input,
-                                              const MeasureOptions& options) const {
+                                              const MeasureOptions& options,
+                                              const ReferenceWheelset* wheelset) const {
   if (between_u_)
-    return measure_track(
-        profile, {nominal_, right(), *between_u_, rig_sigma_mm_, wheelset_ ? &*wheelset_ : nullptr}, options);
+    return measure_track(profile, {nominal_, right(), *between_u_, errors_.place_sigma_mm, wheelset},
+                         options);
   const MeasuredObject object{at(profile.travel), input.prior, input.wheel};
   if (baseline_ && baseline_->at(profile.travel) == nullptr)
     return without_reference(profile, object, options);

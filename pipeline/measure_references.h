@@ -4,14 +4,13 @@
 // of an earlier scan.
 #pragma once
 
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "core/section_bends.h"
 #include "measure/baseline.h"
 #include "measure/measure_track.h"
+#include "pipeline/calibration_errors.h"
 #include "pipeline/measure_input.h"
 
 namespace lightstripe {
@@ -28,11 +27,10 @@ struct ReferenceChoice {
 
 class MeasureReferences {
  public:
-  /// `rig_file` (may be empty) tells how well the place of two rails is known, and how its calibration may
-  /// bend the sections. An Error where the choice asks for what the sections do not show (a track), or a file
-  /// is not usable.
+  /// `errors`: of the calibration that the sections were made with. An Error where the choice asks for what
+  /// the sections do not show (a track), or a file is not usable.
   MeasureReferences(const ReferenceChoice& choice, const MeasureInput& input, const MeasureOptions& options,
-                    const std::filesystem::path& rig_file);
+                    const CalibrationErrors& errors);
 
   /// What a section is drawn with, too.
   const ReferenceShape& at(double travel) const;
@@ -47,18 +45,17 @@ class MeasureReferences {
   std::vector<std::string> extra_columns() const;
 
  private:
-  /// As if the calibration were without error.
-  MeasuredFrame measure_seen(const Profile& profile, const MeasureInput& input,
-                             const MeasureOptions& options) const;
+  /// As if the calibration were without error; `wheelset` may be nullptr.
+  MeasuredFrame measure_seen(const Profile& profile, const MeasureInput& input, const MeasureOptions& options,
+                             const ReferenceWheelset* wheelset) const;
 
   std::optional<IdentifiedRail> identified_;
   ReferenceShape nominal_;
   std::optional<ReferenceShape> right_;
   std::optional<Baseline> baseline_;
   std::optional<double> between_u_;  ///< two rails: where they part
-  std::optional<double> rig_sigma_mm_;
-  SectionBends bends_;  ///< of the rig, if a file names them
-  std::optional<ReferenceWheelset> wheelset_;
+  CalibrationErrors errors_;
+  std::optional<ReferenceWheelset> wheelset_, wheelset_without_sigma_;
 };
 
 }  // namespace lightstripe

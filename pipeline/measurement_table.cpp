@@ -17,7 +17,8 @@ void append_estimate(std::string& out, const Estimate& estimate) {
   if (estimate.value && estimate.sigma) append_decimals(out, *estimate.sigma, 5);
 }
 
-void append_row(std::string& out, const MeasuredFrame& row, const std::string& verdict) {
+void append_row(std::string& out, const MeasuredFrame& row, const std::string& verdict,
+                const std::string& calibration_error) {
   append_integer(out, row.frame);
   out.push_back(',');
   append_decimals(out, row.travel, 6);
@@ -30,7 +31,7 @@ void append_row(std::string& out, const MeasuredFrame& row, const std::string& v
   out += ',' + csv_cell(row.status);
   for (const NamedEstimate& one : row.extras) append_estimate(out, one.estimate);
   const std::string missing = missing_of(row);
-  out += ',' + verdict + ',' + (missing.empty() ? "" : csv_cell(missing)) + '\n';
+  out += ',' + verdict + ',' + (missing.empty() ? "" : csv_cell(missing)) + ',' + calibration_error + '\n';
 }
 
 }  // namespace
@@ -47,13 +48,14 @@ std::string missing_of(const MeasuredFrame& row) {
 
 std::string measurement_table(const std::vector<MeasuredFrame>& rows, ObjectKind kind,
                               const std::vector<std::string>& extras,
-                              const std::vector<std::string>& verdicts) {
+                              const std::vector<std::string>& verdicts,
+                              const std::string& calibration_error) {
   std::string out = "frame,travel,nominal";
   for (const std::string& name : estimate_names(kind)) out += ',' + name + ',' + name + "_sigma";
   out += ",fit_rms,fit_points,status";
   for (const std::string& name : extras) out += ',' + name + ',' + name + "_sigma";
-  out += ",verdict,missing\n";
-  for (std::size_t i = 0; i < rows.size(); ++i) append_row(out, rows[i], verdicts[i]);
+  out += ",verdict,missing,calibration_error\n";
+  for (std::size_t i = 0; i < rows.size(); ++i) append_row(out, rows[i], verdicts[i], calibration_error);
   return out;
 }
 

@@ -11,10 +11,11 @@
 namespace lightstripe {
 
 /// frame,travel,nominal, each quantity and its _sigma, fit_rms,fit_points,status, then what was added later:
-/// extras with their _sigma, verdict, missing (which cells are empty and why).
+/// extras with their _sigma, verdict, missing (which cells are empty and why), calibration_error (whether the
+/// sigmas count it, see calibration_word()).
 std::string measurement_table(const std::vector<MeasuredFrame>& rows, ObjectKind kind,
                               const std::vector<std::string>& extras,
-                              const std::vector<std::string>& verdicts);
+                              const std::vector<std::string>& verdicts, const std::string& calibration_error);
 
 /// "side_wear: gauge face not seen | head_width: ..."; empty where all is known.
 std::string missing_of(const MeasuredFrame& row);

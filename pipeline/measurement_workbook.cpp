@@ -121,13 +121,13 @@ std::vector<Column> write_head(Workbook& book, ObjectKind kind, const std::vecto
   for (const std::string& name : estimate_names(kind)) add(name);
   for (const std::string& name : extras) add(name);
   for (const char* const name :
-       {"fit rms, mm", "points of the fit", "status", "verdict", "not known, and why"})
+       {"fit rms, mm", "points of the fit", "status", "verdict", "not known, and why", "calibration's error"})
     book.head(at++, name);
   return columns;
 }
 
 void write_row(Workbook& book, std::size_t line, const MeasuredFrame& row, const std::vector<Column>& columns,
-               const std::string& verdict) {
+               const std::string& verdict, const std::string& calibration_error) {
   book.number(line, 0, static_cast<double>(row.frame), 0);
   book.number(line, 1, row.travel, 3);
   book.text(line, 2, row.nominal);
@@ -143,19 +143,21 @@ void write_row(Workbook& book, std::size_t line, const MeasuredFrame& row, const
   book.text(line, behind + 2, row.status);
   book.text(line, behind + 3, verdict);
   book.text(line, behind + 4, missing_of(row));
+  book.text(line, behind + 5, calibration_error);
 }
 
 }  // namespace
 
 void write_measurement_workbook(const std::filesystem::path& path, const std::vector<MeasuredFrame>& rows,
                                 ObjectKind kind, const std::vector<std::string>& extras,
-                                const std::vector<std::string>& verdicts, const Limits& limits) {
+                                const std::vector<std::string>& verdicts, const Limits& limits,
+                                const std::string& calibration_error) {
   AtomicFile file(path);
   Workbook book(file.temporary());
   const std::vector<Column> columns = write_head(book, kind, extras);
   bool by_travel = false;
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    write_row(book, i + 1, rows[i], columns, verdicts[i]);
+    write_row(book, i + 1, rows[i], columns, verdicts[i], calibration_error);
     by_travel = by_travel || rows[i].travel != rows.front().travel;
   }
   book.freeze_head();

@@ -16,6 +16,7 @@ namespace lightstripe {
 /// "charts" each quantity that is known in two frames at least, along the travel, with its limits.
 void write_measurement_workbook(const std::filesystem::path& path, const std::vector<MeasuredFrame>& rows,
                                 ObjectKind kind, const std::vector<std::string>& extras,
-                                const std::vector<std::string>& verdicts, const Limits& limits);
+                                const std::vector<std::string>& verdicts, const Limits& limits,
+                                const std::string& calibration_error);
 
 }  // namespace lightstripe

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <optional>
 #include <string>
+#include <system_error>
 
 #include "core/error.h"
 #include "io/atomic_file.h"
@@ -15,6 +16,7 @@
 #include "io/output_guard.h"
 #include "io/resumable_file.h"
 #include "io/tables.h"
+#include "pipeline/rig_of_sections.h"
 #include "pipeline/run_record.h"
 #include "reconstruct/cloud_header.h"
 
@@ -113,6 +115,34 @@ std::vector<Part> read_parts(const MergeJob& job, bool table, CloudFormat format
   return parts;
 }
 
+/// The one rig of all parts; nothing where they are of several, or the record of one does not say.
+RecordedRig rig_of(const std::vector<fs::path>& parts) {
+  RecordedRig common = recorded_rig(parts.front());
+  bool any = common.rig || !common.why_not.empty();
+  for (std::size_t i = 1; i < parts.size(); ++i) {
+    const RecordedRig one = recorded_rig(parts[i]);
+    any = any || one.rig || !one.why_not.empty();
+    if (!common.rig) continue;
+    if (!one.rig)
+      common = {std::nullopt, one.why_not};
+    else if (one.rig->sha256 != common.rig->sha256)
+      common = {std::nullopt, parts[i].string() + " was made with another rig than " + parts[0].string()};
+  }
+  if (any && !common.rig && common.why_not.empty()) common.why_not = "not all parts have a record of theirs";
+  return common;
+}
+
+void write_record(const MergeJob& job, bool table, MergeResult& result) {
+  std::error_code error;
+  const bool has_place = fs::is_regular_file(job.output, error);  // a pipe has none beside it
+  const RecordedRig common = table && has_place ? rig_of(job.parts) : RecordedRig{};
+  if (!common.rig && common.why_not.empty()) return write_run_record(job.output, "merge", job.parts, "");
+  write_sections_record(job.output, "merge", job.parts, common.rig, common.why_not);
+  if (!common.rig)
+    result.warnings.push_back(job.output.string() + ".run.yaml names no rig: " + common.why_not +
+                              "; `measure` needs it as --rig");
+}
+
 }  // namespace
 
 MergeResult merge(const MergeJob& job) {
@@ -138,7 +168,7 @@ MergeResult merge(const MergeJob& job) {
     out.discard();
     throw;
   }
-  write_run_record(job.output, "merge", job.parts, "");
+  write_record(job, table, result);
   return result;
 }
 

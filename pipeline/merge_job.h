@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <string>
 #include <vector>
 
 namespace lightstripe {
@@ -18,9 +19,11 @@ struct MergeJob {
 
 struct MergeResult {
   std::int64_t num_points = 0;  ///< of .ply and .pcd; the other formats do not say
+  std::vector<std::string> warnings{};
 };
 
-/// Writes the joined file and the run's record (<output>.run.yaml). An Error where a part cannot be read, has
+/// Writes the joined file and the run's record (<output>.run.yaml); that of sections names their rig, if all
+/// parts were made with the same one. An Error where a part cannot be read, has
 /// another format, or has frames in common with another one.
 MergeResult merge(const MergeJob& job);
 

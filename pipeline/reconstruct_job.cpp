@@ -26,8 +26,8 @@ void guard(const ReconstructJob& job) {
     if (output.empty()) continue;
     outputs.push_back(output);
     outputs.push_back(ResumableFile::partial_of(output));
+    outputs.push_back(output.string() + ".run.yaml");
   }
-  outputs.push_back(job.cloud.string() + ".run.yaml");
   guard_outputs(inputs, outputs);
 }
 

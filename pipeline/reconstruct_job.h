@@ -74,7 +74,8 @@ struct ReconstructResult {
   bool usable() const { return not_usable.empty(); }
 };
 
-/// Reads, reconstructs and writes, with the run's record (<cloud>.run.yaml). Files appear under their names
+/// Reads, reconstructs and writes, with the run's record (<cloud>.run.yaml; <profiles>.run.yaml names the
+/// rig). Files appear under their names
 /// only when all went well and there are points; a run that was stopped leaves them under partial names, from
 /// where one with `resume` goes on. An Error where a file is wrong.
 ///

@@ -16,18 +16,11 @@
 #include "parallel/parallel.h"
 
 namespace lightstripe {
-namespace {
-
-struct InputFacts {
-  std::uint64_t bytes = 0;
-  std::string sha256;  ///< in hexadecimal digits
-};
-
-InputFacts facts_of(const std::filesystem::path& path) {
+FileFacts facts_of(const std::filesystem::path& path) {
   refuse_special_file(path);
   std::ifstream file(path, std::ios::binary);
   if (!file) throw Error(path.string(), "cannot be read", "check the path");
-  InputFacts facts;
+  FileFacts facts;
   const std::unique_ptr<EVP_MD_CTX, void (*)(EVP_MD_CTX*)> digest(EVP_MD_CTX_new(), EVP_MD_CTX_free);
   LIGHTSTRIPE_CHECK(digest && EVP_DigestInit_ex(digest.get(), EVP_sha256(), nullptr) == 1,
                     "SHA-256 is there");
@@ -43,8 +36,6 @@ InputFacts facts_of(const std::filesystem::path& path) {
   for (unsigned i = 0; i < length; ++i) facts.sha256 += fmt::format("{:02x}", sum[i]);
   return facts;
 }
-
-}  // namespace
 
 std::uint64_t fnv1a(std::string_view bytes, std::uint64_t before) {
   for (const char byte : bytes) before = (before ^ static_cast<unsigned char>(byte)) * 0x100000001b3ULL;
@@ -64,11 +55,11 @@ std::string indented(const std::string& text) {
 void write_run_record(const std::filesystem::path& output, const std::string& command,
                       const std::vector<std::filesystem::path>& inputs, const std::string& options) {
   std::string text = fmt::format("lightstripe: {}\ncommand: {}\ninputs:\n", LIGHTSTRIPE_VERSION, command);
-  std::vector<InputFacts> all(inputs.size());
+  std::vector<FileFacts> all(inputs.size());
   parallel_for(inputs.size(), 0, [&](std::size_t i) { all[i] = facts_of(inputs[i]); });
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     const auto& input = inputs[i];
-    const InputFacts& facts = all[i];
+    const FileFacts& facts = all[i];
     text += fmt::format("  - {{file: {}, bytes: {}, sha256: \"{}\"}}\n", yaml_text(input.string()),
                         facts.bytes, facts.sha256);
   }

@@ -16,6 +16,13 @@ namespace lightstripe {
 void write_run_record(const std::filesystem::path& output, const std::string& command,
                       const std::vector<std::filesystem::path>& inputs, const std::string& options);
 
+struct FileFacts {
+  std::uint64_t bytes = 0;
+  std::string sha256;  ///< in hexadecimal digits, as sha256sum prints it
+};
+/// An Error where the file cannot be read.
+FileFacts facts_of(const std::filesystem::path& path);
+
 /// FNV-1a, 64 bits (Fowler, Noll, Vo), over text that may come in parts: tells whether something has changed,
 /// it is no protection against forgery.
 inline constexpr std::uint64_t kFnvStart = 0xcbf29ce484222325ULL;

@@ -5,8 +5,10 @@
 #include <fmt/format.h>
 
 #include <optional>
+#include <system_error>
 
 #include "io/yaml_binding.h"
+#include "pipeline/rig_of_sections.h"
 #include "pipeline/run_record.h"
 
 namespace lightstripe {
@@ -36,6 +38,12 @@ std::optional<std::string> ranges_text(const FrameRanges& ranges) {
   return ranges.empty() ? std::nullopt : std::optional(ranges.text(kMostRuns));
 }
 
+std::vector<fs::path> inputs_of(const ScanRun& run) {
+  std::vector<fs::path> inputs{run.job.scan_file, run.job.rig_file};
+  if (run.recording.table()) inputs.push_back(*run.recording.table());
+  return inputs;
+}
+
 void write_record(const ScanRun& run, const ReconstructResult& result, const fs::path& cloud) {
   RecordFields fields;
   fields.frames =
@@ -53,28 +61,38 @@ void write_record(const ScanRun& run, const ReconstructResult& result, const fs:
     text += fmt::format("  - {{frame: {}, sensor: {}, reason: {}}}\n", skip.frame,
                         yaml_text(run.job.rig.sensors[static_cast<std::size_t>(skip.picture.sensor)].name),
                         yaml_text(skip.picture.reason));
-  std::vector<fs::path> inputs{run.job.scan_file, run.job.rig_file};
-  if (run.recording.table()) inputs.push_back(*run.recording.table());
   write_run_record(
-      cloud, "reconstruct", inputs,
+      cloud, "reconstruct", inputs_of(run),
       text + lines_yaml(result.lines) + "extraction:\n" + indented(dump_yaml(run.job.extraction)));
+}
+
+/// Beside the sections: of which rig they are. A pipe has no place beside it.
+void write_sections_record(const ScanRun& run, const fs::path& profiles) {
+  std::error_code error;
+  if (!fs::is_regular_file(profiles, error)) return;
+  write_sections_record(profiles, "reconstruct", inputs_of(run), place_of_rig(run.job.rig_file, run.job.rig),
+                        "the rig file was changed while the scan was reconstructed");
 }
 
 }  // namespace
 
 void close_output(const ScanRun& run, ScanOutput& output, ReconstructResult& result) {
-  const fs::path partial = output.partial_cloud();
+  const fs::path partial = output.partial_cloud(), profiles = run.job.profiles;
+  const fs::path partial_profiles = profiles.empty() ? profiles : ResumableFile::partial_of(profiles);
   std::error_code ignored;
   if (result.summary.stopped) {
     output.keep();
     result.partial_cloud = partial;
+    write_sections_record(run, partial_profiles);
     return write_record(run, result, partial);
   }
   if (result.summary.points == 0) return output.discard();
   output.commit();
   if (run.job.before_end) run.job.before_end();
+  write_sections_record(run, profiles);
   write_record(run, result, run.job.cloud);
-  fs::remove(partial.string() + ".run.yaml", ignored);
+  for (const fs::path& half : {partial, partial_profiles})
+    if (!half.empty()) fs::remove(half.string() + ".run.yaml", ignored);
   output.forget_journal();
 }
 

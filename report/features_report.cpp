@@ -10,6 +10,7 @@
 #include <numbers>
 
 #include "core/counted.h"
+#include "report/calibration_error_text.h"
 #include "report/charts_page.h"
 
 namespace lightstripe {
@@ -102,6 +103,8 @@ std::string features_report_html(const FeaturesJob& job, const FeaturesResult& r
     if (std::any_of(result.rows.begin(), result.rows.end(), known))
       page.charts.push_back(chart_of(result, i));
   }
+  for (const Message& one : describe_calibration_error(result.rig, result.calibration, job.profiles).list)
+    page.notes.push_back(one.text);
   for (std::size_t i = 0; i < result.along.size(); ++i)
     page.notes.push_back(along_the_scan(result.file.along[i], result.along[i]));
   for (const std::size_t row : {std::size_t{0}, result.rows.size() / 2, result.rows.size() - 1})

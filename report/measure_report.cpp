@@ -10,6 +10,7 @@
 #include "io/images.h"
 #include "pipeline/measurement_table.h"
 #include "pipeline/quantity_text.h"
+#include "report/calibration_error_text.h"
 #include "report/frame_thumbnails.h"
 #include "report/page.h"
 #include "report/section_drawing.h"
@@ -191,6 +192,15 @@ json rows_json(const MeasureReport& report) {
   return {{"frame", frames}, {"travel", travel}, {"status", status}, {"verdict", report.result.verdicts}};
 }
 
+/// Whether the sigmas count what the calibration errs by.
+json calibration_sentences(const MeasureReport& report) {
+  json out = json::array();
+  for (const Message& one :
+       describe_calibration_error(report.result.rig, report.result.calibration, report.job.profiles).list)
+    out.push_back(one.text);
+  return out;
+}
+
 json report_data(const MeasureReport& report) {
   const auto& rows = report.result.rows;
   const std::vector<std::size_t> worst = worst_first(report);
@@ -207,6 +217,7 @@ json report_data(const MeasureReport& report) {
             {"view", report.places.view},
             {"ok", report.result.num_ok},
             {"warnings", report.result.warnings},
+            {"calibration_error", calibration_sentences(report)},
             {"rows", rows_json(report)},
             {"quantities", named},
             {"worst", worst},

@@ -9,6 +9,7 @@
 
 #include "core/counted.h"
 #include "pipeline/measurement_table.h"
+#include "report/calibration_error_text.h"
 
 namespace lightstripe {
 namespace {
@@ -43,13 +44,12 @@ Messages describe_measurement(const MeasureJob& job, const MeasureResult& result
   for (const char* const name : {"overlap_gap", "gauge", "conicity"}) say_spread(name);
   if (result.run_out) say_run_out(*result.run_out, out);
   const Spread diameter = spread_of(result.rows, "diameter");
-  if (diameter.known > 0 && !job.rig.empty())
+  if (diameter.known > 0 && !result.rig.file.empty() && !result.calibration.counted())
     out.say(
         "the diameter's sigma is twice that of the axis' place in the rig's calibration: a board seen over a "
         "few degrees fixes an "
         "axis half a metre away only to a millimetre; it is common to all frames");
-  if (job.rig.empty() && job.profiles.extension() == ".csv")
-    out.say("the sigmas do not count the calibration's error: give --rig rig.yaml");
+  out.append(describe_calibration_error(result.rig, result.calibration, job.profiles));
   std::map<std::string, int> reasons;
   for (const MeasuredFrame& row : result.rows)
     if (row.status != "ok") ++reasons[row.status];

@@ -19,6 +19,7 @@ struct Messages {
 
   void say(std::string text) { list.push_back({std::move(text), false}); }
   void warn(std::string text) { list.push_back({std::move(text), true}); }
+  void append(const Messages& more) { list.insert(list.end(), more.list.begin(), more.list.end()); }
 };
 
 }  // namespace lightstripe

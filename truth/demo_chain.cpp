@@ -47,6 +47,7 @@ std::set<std::string> demo_files(const Scene& scene) {
                               "cloud.html",
                               "cloud.png",
                               "profiles.csv",
+                              "profiles.csv.run.yaml",
                               "profiles.partial.csv",
                               "map.tif",
                               "map.png",

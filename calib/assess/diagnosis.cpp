@@ -46,13 +46,13 @@ std::vector<double> corner_coverage(const SessionViews& session, const JointAdju
 }
 
 CalibrationDiagnosis diagnose(const SessionViews& session, const JointAdjustment& adjustment,
-                              const std::vector<BoardSpread>& spreads, const Eigen::Vector3d& up,
-                              const CalibrationOptions& options) {
+                              const std::vector<BoardSpread>& spreads, const SectionErrors& errors,
+                              const Eigen::Vector3d& up, const CalibrationOptions& options) {
   CalibrationDiagnosis result;
   result.residuals = residual_samples(session, adjustment);
   result.map = uncertainty_map(session, adjustment, spreads, up, options.range_near_mm, options.range_far_mm);
   result.cross_validation = cross_validate(session, adjustment, up, options);
-  result.weakest = weakest_direction(session, adjustment, spreads, up);
+  result.weakest = weakest_direction(session, adjustment, spreads, errors, up);
   result.corner_coverage = corner_coverage(session, adjustment);
   const Rigid3 rig = rig_from_first(adjustment.state, session.motion, up);
   for (const auto& pose : adjustment.state.first_from_board) result.rig_from_board.push_back(rig * pose);

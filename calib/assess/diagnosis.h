@@ -9,6 +9,7 @@
 
 #include "calib/adjust/joint_adjustment.h"
 #include "calib/assess/board_spread.h"
+#include "calib/assess/uncertainty.h"
 #include "calib/calibration.h"
 
 namespace lightstripe {
@@ -27,14 +28,15 @@ CrossValidation cross_validate(const SessionViews& session, const JointAdjustmen
 
 /// The largest principal part of the section's predicted error, and which views would reduce it.
 std::string weakest_direction(const SessionViews& session, const JointAdjustment& adjustment,
-                              const std::vector<BoardSpread>& spreads, const Eigen::Vector3d& up);
+                              const std::vector<BoardSpread>& spreads, const SectionErrors& errors,
+                              const Eigen::Vector3d& up);
 
 /// For each sensor the share of 8 x 6 equal parts of its image in which a corner was used.
 std::vector<double> corner_coverage(const SessionViews& session, const JointAdjustment& adjustment);
 
 /// All of it.
 CalibrationDiagnosis diagnose(const SessionViews& session, const JointAdjustment& adjustment,
-                              const std::vector<BoardSpread>& spreads, const Eigen::Vector3d& up,
-                              const CalibrationOptions& options);
+                              const std::vector<BoardSpread>& spreads, const SectionErrors& errors,
+                              const Eigen::Vector3d& up, const CalibrationOptions& options);
 
 }  // namespace lightstripe

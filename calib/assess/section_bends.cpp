@@ -4,7 +4,11 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
+#include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <utility>
+#include <vector>
 
 #include "calib/assess/uncertainty.h"
 
@@ -43,30 +47,83 @@ std::vector<double> rounded(const VectorXd& coefficients) {
   return out;
 }
 
+/// How many of the rigid motions (shift along y or the axis, the other shift, turn) a look leaves out.
+enum Motions : Index { kShiftAlong = 1, kShifts = 2, kAll = 3 };
+
+/// Displacements less the first `motions` rigid motions that fit each of them best.
+MatrixXd without(Motions motions, const VectorXd& section, const MatrixXd& displacements) {
+  const MatrixXd basis = rigid_motions(section).leftCols(motions);
+  return displacements - basis * (basis.transpose() * displacements);
+}
+
+/// The errors as the part of the section that these sensors see has them, less the rigid motions: products
+/// of every two errors' displacements, over the sum of all squares. Empty where too little is seen.
+MatrixXd seen_by(const std::vector<int>& sensors, Motions motions, const SectionErrors& errors,
+                 const MatrixXd& displacements) {
+  std::vector<Index> rows;
+  for (std::size_t i = 0; i < errors.samples.size(); ++i)
+    if (std::find(sensors.begin(), sensors.end(), errors.samples[i].sensor) != sensors.end())
+      for (const Index axis : {0, 1}) rows.push_back(2 * static_cast<Index>(i) + axis);
+  if (rows.size() < 2 * kAll) return {};
+  const MatrixXd seen = without(motions, errors.section(rows), displacements(rows, Eigen::all));
+  return seen.transpose() * seen / std::max(seen.squaredNorm(), 1e-300);
+}
+
+/// The whole section as it is measured, and the parts whose own bending counts however far they may be
+/// shifted against each other: every sensor's, every pair's.
+std::vector<MatrixXd> looks_at(const SectionErrors& errors, const MatrixXd& displacements, int sensors,
+                               SectionFreedom freedom) {
+  std::vector<int> all(static_cast<std::size_t>(sensors));
+  std::iota(all.begin(), all.end(), 0);
+  std::vector<MatrixXd> grams;
+  const auto look = [&](const std::vector<int>& by, Motions motions) {
+    MatrixXd gram = seen_by(by, motions, errors, displacements);
+    if (gram.size() > 0) grams.push_back(std::move(gram));
+  };
+  look(all, kAll);
+  if (freedom == SectionFreedom::kAlongAxis) look(all, kShifts), look(all, kShiftAlong);
+  for (int a = 0; a < sensors && sensors > 1; ++a) {
+    look({a}, kAll);
+    for (int b = a + 1; b < sensors && sensors > 2; ++b) look({a, b}, kAll);
+  }
+  return grams;
+}
+
+/// Whether every look sees at most `left` of its squared displacements in the columns of `dropped`.
+bool all_see_little(const std::vector<MatrixXd>& looks, const MatrixXd& dropped, double left) {
+  return std::all_of(looks.begin(), looks.end(), [&](const MatrixXd& gram) {
+    return (gram * dropped).cwiseProduct(dropped).sum() <= left;
+  });
+}
+
 }  // namespace
 
-SectionBends section_bends(const SessionViews& session, const JointAdjustment& adjustment,
-                           const Eigen::Vector3d& up) {
-  constexpr double kKept = 0.95;  // of the summed variance
+SectionBends section_bends(const SectionErrors& errors, const MatrixXd& covariance, SectionFreedom freedom) {
+  constexpr double kLeft = 0.05;  // of the summed variance, of every look
   constexpr std::size_t kFewest = 10;
   SectionBends out;
-  const auto samples = section_samples(session, adjustment.residuals);
-  if (samples.size() < kFewest) return out;
-  const VectorXd section = section_of(adjustment.state, session.motion, up, samples);
+  if (errors.samples.size() < kFewest) return out;
   const Eigen::Vector2d centre =
-      Eigen::Map<const Eigen::Matrix2Xd>(section.data(), 2, section.size() / 2).rowwise().mean();
+      Eigen::Map<const Eigen::Matrix2Xd>(errors.section.data(), 2, errors.section.size() / 2)
+          .rowwise()
+          .mean();
   out.centre_mm = {std::round(centre.x()), std::round(centre.y())};
-  const MatrixXd errors = without_rigid_motion(section) * section_jacobian(session, adjustment, up, samples) *
-                          root_of(adjustment.covariance);
-  const MatrixXd basis = basis_of(out, section, samples, static_cast<Index>(adjustment.state.sensors.size()));
-  const MatrixXd coefficients = basis.completeOrthogonalDecomposition().solve(errors);
-  const MatrixXd displaced = basis * coefficients;
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(displaced.transpose() * displaced);
-  double left = eigen.eigenvalues().sum();
-  const double least = (1 - kKept) * left;
-  for (Index i = eigen.eigenvalues().size(); i-- > 0 && left > least;) {
-    out.bends.push_back(rounded(coefficients * eigen.eigenvectors().col(i)));
-    left -= eigen.eigenvalues()(i);
+  int sensors = 0;
+  for (const SectionSample& sample : errors.samples) sensors = std::max(sensors, sample.sensor + 1);
+  const MatrixXd displacements = without(freedom == SectionFreedom::kRigid ? kAll : kShiftAlong,
+                                         errors.section, errors.jacobian * root_of(covariance));
+  const MatrixXd basis = basis_of(out, errors.section, errors.samples, sensors);
+  const MatrixXd coefficients = basis.completeOrthogonalDecomposition().solve(displacements);
+  const std::vector<MatrixXd> looks = looks_at(errors, basis * coefficients, sensors, freedom);
+  if (looks.empty()) return out;
+  // Any turn of independent errors of one sigma are such errors: the one in which the first of them are seen
+  // most.
+  MatrixXd sum = looks.front();
+  for (std::size_t i = 1; i < looks.size(); ++i) sum += looks[i];
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(sum);
+  for (Index left = sum.cols(); left > 0; --left) {
+    if (all_see_little(looks, eigen.eigenvectors().leftCols(left), kLeft)) break;
+    out.bends.push_back(rounded(coefficients * eigen.eigenvectors().col(left - 1)));
   }
   return out;
 }

@@ -10,6 +10,8 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
+#include <utility>
 
 #include "calib/adjust/rig_frame.h"
 
@@ -105,6 +107,18 @@ double axis_sigma_mm(const JointAdjustment& adjustment) {
   });
 }
 
+/// Where the sample's ray meets its laser plane, in the first sensor's frame.
+std::optional<Eigen::Vector3d> place_in_first(const RigState& state, const SectionSample& sample) {
+  const auto& sensor = state.sensors[static_cast<std::size_t>(sample.sensor)];
+  const auto ray = unproject(sensor.camera, sample.pixel);
+  const auto& plane = sensor.laser_planes[static_cast<std::size_t>(sample.plane)];
+  const auto p = ray ? intersect(plane, Eigen::Vector3d::Zero(), *ray) : std::nullopt;
+  if (!p) return std::nullopt;
+  return sensor.cam_from_first.inverse() * *p;
+}
+
+constexpr std::size_t kFewestSamples = 3;  // a rigid move fits fewer of them exactly
+
 }  // namespace
 
 std::map<std::string, double> parameter_sigmas(const SessionViews& session,
@@ -150,15 +164,9 @@ VectorXd section_of(const RigState& state, MotionType motion, const Eigen::Vecto
                     const std::vector<SectionSample>& samples) {
   const Rigid3 rig = rig_from_first(state, motion, up);
   VectorXd section = VectorXd::Zero(2 * static_cast<Eigen::Index>(samples.size()));
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    const auto& sensor = state.sensors[static_cast<std::size_t>(samples[i].sensor)];
-    const auto ray = unproject(sensor.camera, samples[i].pixel);
-    const auto& plane = sensor.laser_planes[static_cast<std::size_t>(samples[i].plane)];
-    const auto p = ray ? intersect(plane, Eigen::Vector3d::Zero(), *ray) : std::nullopt;
-    if (p)
-      section.segment<2>(2 * static_cast<Eigen::Index>(i)) =
-          (rig * (sensor.cam_from_first.inverse() * *p)).tail<2>();
-  }
+  for (std::size_t i = 0; i < samples.size(); ++i)
+    if (const auto p = place_in_first(state, samples[i]))
+      section.segment<2>(2 * static_cast<Eigen::Index>(i)) = (rig * *p).tail<2>();
   return section;
 }
 
@@ -168,7 +176,44 @@ MatrixXd section_jacobian(const SessionViews& session, const JointAdjustment& ad
                     [&](const RigState& state) { return section_of(state, session.motion, up, samples); });
 }
 
-MatrixXd without_rigid_motion(const VectorXd& section) {
+SectionErrors section_errors(const SessionViews& session, const JointAdjustment& adjustment,
+                             const Eigen::Vector3d& up) {
+  SectionErrors out;
+  out.samples = section_samples(session, adjustment.residuals);
+  if (out.samples.size() < kFewestSamples) return out;
+  out.section = section_of(adjustment.state, session.motion, up, out.samples);
+  out.jacobian = section_jacobian(session, adjustment, up, out.samples);
+  return out;
+}
+
+VectorXd axial_section_of(const RigState& state, const Eigen::Vector3d& up,
+                          const std::vector<SectionSample>& samples) {
+  const Eigen::Vector3d point = nearest_point_of_axis(*state.motion);
+  Eigen::Vector3d axis = state.motion->direction.normalized();
+  if ((rig_from_first(state, MotionType::kRotary, up).rotation * axis).y() < 0) axis = -axis;
+  VectorXd section = VectorXd::Zero(2 * static_cast<Eigen::Index>(samples.size()));
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const auto p = place_in_first(state, samples[i]);
+    if (!p) continue;
+    const Eigen::Vector3d arm = *p - point;
+    const double along = axis.dot(arm);
+    section.segment<2>(2 * static_cast<Eigen::Index>(i)) << along, (arm - along * axis).norm();
+  }
+  return section;
+}
+
+SectionErrors axial_section_errors(const JointAdjustment& adjustment, const Eigen::Vector3d& up,
+                                   std::vector<SectionSample> samples) {
+  SectionErrors out;
+  out.samples = std::move(samples);
+  if (out.samples.size() < kFewestSamples) return out;
+  out.section = axial_section_of(adjustment.state, up, out.samples);
+  out.jacobian =
+      derivative(adjustment, [&](const RigState& state) { return axial_section_of(state, up, out.samples); });
+  return out;
+}
+
+MatrixXd rigid_motions(const VectorXd& section) {
   const Eigen::Index n = section.size() / 2;
   const Eigen::Map<const Eigen::Matrix2Xd> points(section.data(), 2, n);
   const Eigen::Vector2d mean = points.rowwise().mean();
@@ -177,21 +222,21 @@ MatrixXd without_rigid_motion(const VectorXd& section) {
     const Eigen::Vector2d p = points.col(i) - mean;
     rigid.middleRows<2>(2 * i) << 1, 0, -p.y(), 0, 1, p.x();
   }
-  const MatrixXd basis = rigid.householderQr().householderQ() * MatrixXd::Identity(2 * n, 3);
-  return MatrixXd::Identity(2 * n, 2 * n) - basis * basis.transpose();
+  return rigid.householderQr().householderQ() * MatrixXd::Identity(2 * n, 3);
 }
 
-SectionUncertainty section_uncertainty(const SessionViews& session, const JointAdjustment& adjustment,
-                                       const Eigen::Vector3d& up) {
-  const auto samples = section_samples(session, adjustment.residuals);
-  if (samples.size() < 3) return {};
-  const MatrixXd J = section_jacobian(session, adjustment, up, samples);
-  const MatrixXd shape = without_rigid_motion(section_of(adjustment.state, session.motion, up, samples)) * J;
+MatrixXd without_rigid_motion(const VectorXd& section) {
+  const MatrixXd basis = rigid_motions(section);
+  return MatrixXd::Identity(section.size(), section.size()) - basis * basis.transpose();
+}
+
+SectionUncertainty section_uncertainty(const SectionErrors& errors, const MatrixXd& covariance) {
+  if (!errors.known()) return {};
+  const MatrixXd shape = without_rigid_motion(errors.section) * errors.jacobian;
   const auto rms = [&](const MatrixXd& of) {
-    return std::sqrt((of * adjustment.covariance).cwiseProduct(of).sum() /
-                     static_cast<double>(samples.size()));
+    return std::sqrt((of * covariance).cwiseProduct(of).sum() / static_cast<double>(errors.samples.size()));
   };
-  return {rms(J), rms(shape)};
+  return {rms(errors.jacobian), rms(shape)};
 }
 
 Eigen::MatrixXd covariance_of(const JointAdjustment& adjustment,

@@ -33,14 +33,6 @@ struct SectionUncertainty {
   double shape_mm = 0;  ///< after the best rigid move in the section plane
 };
 
-SectionUncertainty section_uncertainty(const SessionViews& session, const JointAdjustment& adjustment,
-                                       const Eigen::Vector3d& up);
-
-/// The independent errors that make up shape_mm, the largest first, until 95 % of its square; as polynomials
-/// of the section, which extrapolate beyond the boards' stripes. None where too few stripe points were used.
-SectionBends section_bends(const SessionViews& session, const JointAdjustment& adjustment,
-                           const Eigen::Vector3d& up);
-
 /// The pixels for which section_uncertainty stands: the used stripe points, at most 150 a laser plane.
 struct SectionSample {
   int sensor = 0, plane = 0;
@@ -52,12 +44,49 @@ std::vector<SectionSample> section_samples(const SessionViews& session, const st
 Eigen::VectorXd section_of(const RigState& state, MotionType motion, const Eigen::Vector3d& up,
                            const std::vector<SectionSample>& samples);
 
+/// (u, v) of every sample as a rotary scan has them: place along the axis, which grows with the rig's y, and
+/// distance from it.
+Eigen::VectorXd axial_section_of(const RigState& state, const Eigen::Vector3d& up,
+                                 const std::vector<SectionSample>& samples);
+
 /// d section_of / d(shared unknowns of the covariance), 2n x m.
 Eigen::MatrixXd section_jacobian(const SessionViews& session, const JointAdjustment& adjustment,
                                  const Eigen::Vector3d& up, const std::vector<SectionSample>& samples);
 
+/// Where the calibration saw stripes, and how these places move with the shared unknowns: computed once for
+/// all that ask what the calibration errs by.
+struct SectionErrors {
+  std::vector<SectionSample> samples;
+  Eigen::VectorXd section;   ///< see section_of
+  Eigen::MatrixXd jacobian;  ///< see section_jacobian; empty where fewer than three samples are there
+  bool known() const { return jacobian.size() > 0; }
+};
+SectionErrors section_errors(const SessionViews& session, const JointAdjustment& adjustment,
+                             const Eigen::Vector3d& up);
+/// The same of axial_section_of(), for a rig with an axis.
+SectionErrors axial_section_errors(const JointAdjustment& adjustment, const Eigen::Vector3d& up,
+                                   std::vector<SectionSample> samples);
+
+SectionUncertainty section_uncertainty(const SectionErrors& errors, const Eigen::MatrixXd& covariance);
+
+/// How a measurement lays a section: a linear scan's on parts that do not wear, wherever they are (two shifts
+/// and a turn are free); a rotary scan's only along its axis, because its radii and its tilt against the axis
+/// are measured.
+enum class SectionFreedom { kRigid, kAlongAxis };
+
+/// Independent errors of the calibration as what they do to a section beyond its freedom; as polynomials of
+/// the section, which extrapolate beyond the boards' stripes. As many as hold 95 % of the squared
+/// displacement of the whole section, and 95 % of what bends each sensor's part of it and each pair's: a
+/// rail's wear is seen by one or two sensors, however far the calibration may shift them against those over
+/// the other rail. None where too few stripe points were used.
+SectionBends section_bends(const SectionErrors& errors, const Eigen::MatrixXd& covariance,
+                           SectionFreedom freedom);
+
 /// Orthogonal projector that takes the rigid motions of the section's points (two shifts, one turn) out of a
 /// displacement of all of them; 2n x 2n.
 Eigen::MatrixXd without_rigid_motion(const Eigen::VectorXd& section);
+
+/// The orthonormal basis of these motions, 2n x 3.
+Eigen::MatrixXd rigid_motions(const Eigen::VectorXd& section);
 
 }  // namespace lightstripe

@@ -12,7 +12,6 @@
 #include "calib/adjust/rig_frame.h"
 #include "calib/assess/board_spread.h"
 #include "calib/assess/diagnosis.h"
-#include "calib/assess/uncertainty.h"
 
 namespace lightstripe {
 namespace {
@@ -103,18 +102,17 @@ std::string advice(const SessionViews& session, const std::vector<BoardSpread>& 
 }  // namespace
 
 std::string weakest_direction(const SessionViews& session, const JointAdjustment& adjustment,
-                              const std::vector<BoardSpread>& spreads, const Eigen::Vector3d& up) {
-  const auto samples = section_samples(session, adjustment.residuals);
-  if (samples.size() < 3) return {};
-  const VectorXd section = section_of(adjustment.state, session.motion, up, samples);
+                              const std::vector<BoardSpread>& spreads, const SectionErrors& errors,
+                              const Eigen::Vector3d& up) {
+  if (!errors.known()) return {};
   const MatrixXd L = adjustment.covariance.llt().matrixL();
-  const MatrixXd A = section_jacobian(session, adjustment, up, samples) * L;
+  const MatrixXd A = errors.jacobian * L;
   const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(A.transpose() * A);
   const VectorXd displacement = A * eigen.eigenvectors().rightCols<1>();
   const Rigid3 rig = rig_from_first(adjustment.state, session.motion, up);
   const Vector2d towards = (rig.rotation * Eigen::Vector3d::UnitZ()).tail<2>();
   const Vector2d range = towards.norm() > 0.1 ? Vector2d(towards.normalized()) : Vector2d::UnitY();
-  const auto parts = parts_of(section, displacement, range);
+  const auto parts = parts_of(errors.section, displacement, range);
   const auto largest = std::max_element(
       parts.begin(), parts.end(), [](const Part& a, const Part& b) { return a.amount_mm < b.amount_mm; });
   return largest->words + " (1 sigma); " + advice(session, spreads);

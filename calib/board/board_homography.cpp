@@ -51,10 +51,10 @@ std::optional<Matrix3d> find_homography(std::span<const Vector2d> from, std::spa
   return H / H.norm();
 }
 
-Rigid3 pose_from_homography(const Matrix3d& rays_from_board) {
+Rigid3 pose_from_homography(const Matrix3d& rays_from_board, const Eigen::Vector2d& seen) {
   const double scale = 2 / (rays_from_board.col(0).norm() + rays_from_board.col(1).norm());
   Matrix3d H = scale * rays_from_board;
-  if (H(2, 2) < 0) H = -H;  // the board's origin lies in front of the camera
+  if (H.row(2).dot(seen.homogeneous()) < 0) H = -H;
   Matrix3d axes;
   axes << H.col(0), H.col(1), H.col(0).cross(H.col(1));
   const Eigen::JacobiSVD<Matrix3d> svd(axes, Eigen::ComputeFullU | Eigen::ComputeFullV);

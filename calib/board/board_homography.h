@@ -18,8 +18,9 @@ namespace lightstripe {
 std::optional<Eigen::Matrix3d> find_homography(std::span<const Eigen::Vector2d> from,
                                                std::span<const Eigen::Vector2d> to);
 
-/// The pose of a board, in front of the camera, from the homography to its rays (x, y, 1) (Zhang 2000,
-/// section 3.1).
-Rigid3 pose_from_homography(const Eigen::Matrix3d& rays_from_board);
+/// The pose of a board from the homography to its rays (x, y, 1) (Zhang 2000, section 3.1). `seen`: a place
+/// of the board that lies before the camera. Its origin need not: of a long board only one end may be in
+/// view.
+Rigid3 pose_from_homography(const Eigen::Matrix3d& rays_from_board, const Eigen::Vector2d& seen);
 
 }  // namespace lightstripe

@@ -22,7 +22,7 @@ std::optional<Rigid3> board_pose(const Camera& camera, const Target& target,
   }
   const auto H = find_homography(board, rays);
   if (!H) return std::nullopt;
-  Rigid3 pose = pose_from_homography(*H);
+  Rigid3 pose = pose_from_homography(*H, board.front());
   refine_pose(camera, target, corners, pose);
   return pose;
 }

@@ -135,7 +135,8 @@ std::optional<CameraStart> solve_camera(const std::vector<const SessionView*>& v
   for (std::size_t i = 0; i < views.size(); ++i) {
     Eigen::Matrix3d K = Eigen::Matrix3d::Identity();
     K << start.camera.fx, 0, start.camera.cx, 0, start.camera.fy, start.camera.cy, 0, 0, 1;
-    start.cam_from_board.push_back(pose_from_homography(K.inverse() * homographies[i]));
+    const Eigen::Vector2d seen = seen_corners(*corners[i], target).board.front();
+    start.cam_from_board.push_back(pose_from_homography(K.inverse() * homographies[i], seen));
     refine_pose(start.camera, target, *corners[i], start.cam_from_board.back());
   }
   if (!refine_camera(start.camera, target, corners, start.cam_from_board) || !plausible(start.camera.fx) ||

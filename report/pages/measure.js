@@ -17,6 +17,7 @@ function showHead() {
     (failed ? `; ${failed} beyond a limit` : judged ? '; none beyond a limit' : '; no limits were given');
   v.classList.add(failed || !data.ok ? 'bad' : judged ? 'good' : 'plain');
   data.warnings.forEach(w => element('div', w, at('warnings'), 'warning'));
+  data.calibration_error.forEach(t => element('p', t[0].toUpperCase() + t.slice(1) + '.', at('warnings'), 'note'));
   at('source').textContent = `From ${data.profiles}. `;
   if (data.view) { const a = element('a', 'Look at the cloud in 3D', at('source')); a.href = data.view; }
 }

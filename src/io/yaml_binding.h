@@ -30,6 +30,9 @@ void read_subtree(const YamlSubtree& part, T& object) {
   if (!part.empty()) detail::read_field(detail::parse_yaml(part.text, place), object, place);
 }
 
+/// One entry of a file whose other keys belong to somebody else; empty if the file has none of that name.
+YamlSubtree read_entry(const std::filesystem::path& path, std::string_view key);
+
 /// A text as it stands in YAML, in quotes and escaped where it would be misread.
 std::string yaml_text(std::string_view text);
 

@@ -10,6 +10,7 @@
 #include "core/error.h"
 #include "io/edit_distance.h"
 #include "io/number_text.h"
+#include "io/yaml_binding.h"
 
 namespace lightstripe::detail {
 namespace {
@@ -185,3 +186,10 @@ void for_each_leaf(
 }
 
 }  // namespace lightstripe::detail
+
+lightstripe::YamlSubtree lightstripe::read_entry(const std::filesystem::path& path, std::string_view key) {
+  YamlSubtree out;
+  for (const detail::YamlNode& entry : detail::parse_yaml_file(path).items)
+    if (entry.key == key) detail::read_field(entry, out, {path.string(), std::string(key)});
+  return out;
+}

@@ -27,9 +27,28 @@ TEST(BoardHomography, GivesBackThePoseOfExactRays) {
   }
   const auto H = find_homography(board, rays);
   ASSERT_TRUE(H);
-  const Rigid3 pose = pose_from_homography(*H);
+  const Rigid3 pose = pose_from_homography(*H, board.front());
   EXPECT_LT(pose.rotation.angularDistance(truth.rotation), 1e-9);
   EXPECT_LT((pose.translation - truth.translation).norm(), 1e-7);
+}
+
+TEST(BoardHomography, TheOriginOfALongBoardMayLieBehindTheCamera) {
+  const Rigid3 truth = tilted_pose(60, {0, 1, 0}, {500, 15, -400});
+  std::vector<Vector2d> board, rays;
+  for (int i = 0; i < 400; ++i) {
+    const Vector2d place(10 * (i % 100), 10 * (i / 100));
+    const Vector3d p = truth * Vector3d(place.x(), place.y(), 0),
+                   q = truth * Vector3d(-place.x(), place.y(), 0);
+    for (const auto& [at, from] : {std::pair(p, place), std::pair(q, Vector2d(-place.x(), place.y()))})
+      if (at.z() > 100 && at.head<2>().norm() < at.z())
+        board.push_back(from), rays.push_back(at.hnormalized());
+  }
+  ASSERT_GT(board.size(), 20U);
+  const auto H = find_homography(board, rays);
+  ASSERT_TRUE(H);
+  const Rigid3 pose = pose_from_homography(*H, board.front());
+  EXPECT_LT(pose.rotation.angularDistance(truth.rotation), 1e-8);
+  EXPECT_LT((pose.translation - truth.translation).norm(), 1e-5);
 }
 
 TEST(BoardHomography, PointsOnALineHaveNone) {

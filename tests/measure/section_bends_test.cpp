@@ -32,6 +32,43 @@ TEST(SectionBends, AnUnknownSigmaStaysUnknown) {
   EXPECT_FALSE(row.estimates[0].estimate.sigma);
 }
 
+// What is common to all frames falls out of a difference to their mean.
+TEST(SectionBends, DoNotCountInDeviationsFromTheScansMean) {
+  MeasuredFrame row, bent;
+  row.extras = {{"radial_deviation", Estimate::known(460, 0.01)}, {"lip", Estimate::known(1, 0.01)}};
+  bent.extras = {{"radial_deviation", Estimate::known(461, 0.01)}, {"lip", Estimate::known(2, 0.01)}};
+  add_bends({bent}, row);
+  EXPECT_EQ(*row.extras[0].estimate.sigma, 0.01);
+  EXPECT_GT(*row.extras[1].estimate.sigma, 1);
+}
+
+TEST(SectionBends, CountInTheConicityOfEveryAmplitude) {
+  MeasuredFrame row, bent;
+  row.conicity = {{1, 0, 0.10, 0.003}, {1.1, 0, std::nullopt, std::nullopt}};
+  bent.conicity = {{1, 0, 0.104, 0}, {1.1, 0, 0.2, 0}};
+  add_bends({bent}, row);
+  EXPECT_NEAR(*row.conicity[0].sigma, 0.005, 1e-12);
+  EXPECT_FALSE(row.conicity[1].sigma);
+}
+
+TEST(SectionBends, EachErrorIsMeasuredOnceMoreWhereThereIsSomethingToSee) {
+  int measured = 0;
+  const auto measure = [&](bool usable) {
+    return [&measured, usable](std::optional<std::size_t> error) {
+      ++measured;
+      MeasuredFrame row = row_of(error ? 1 + 0.1 * static_cast<double>(*error + 1) : 1, 0.0, 5);
+      if (usable) row.registration.reason.clear();
+      return row;
+    };
+  };
+  const MeasuredFrame row = measure_with_errors(2, measure(true));
+  EXPECT_EQ(measured, 3);
+  EXPECT_NEAR(*row.estimates[0].estimate.sigma, std::hypot(0.1, 0.2), 1e-12);
+  measured = 0;
+  measure_with_errors(2, measure(false));
+  EXPECT_EQ(measured, 1);
+}
+
 TEST(SectionBends, MoveEachSensorsPointsInTheSection) {
   Profile profile;
   profile.points.resize(2);

@@ -41,9 +41,11 @@ TEST(MeasurementTable, AnUnknownCellIsEmptyAndNamedWithItsReason) {
   const std::string first = estimate_names(ObjectKind::kRail)[0];
   const MeasuredFrame row = row_with_wear({}, "gauge face not seen");
   EXPECT_THAT(missing_of(row), HasSubstr(first + ": gauge face not seen"));
-  const std::string table = measurement_table({row}, ObjectKind::kRail, {}, {"unknown"});
+  const std::string table = measurement_table({row}, ObjectKind::kRail, {}, {"unknown"}, "not counted");
   EXPECT_THAT(table, HasSubstr("frame,travel,nominal," + first + "," + first + "_sigma,"));
   EXPECT_THAT(table, HasSubstr(",ok,unknown,"));
+  EXPECT_THAT(table, HasSubstr(",verdict,missing,calibration_error\n"));
+  EXPECT_THAT(table, ::testing::EndsWith(",not counted\n"));
 }
 
 TEST(MeasureInput, ReferencesAreNamesOrFilesOfTheRightKind) {
