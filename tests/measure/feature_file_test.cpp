@@ -59,16 +59,16 @@ TEST(FeatureFile, NamesHaveToBeThereOnceAndBeforeTheirUse) {
 TEST(FeatureFile, FeaturesHaveToFitTheirUse) {
   FeatureFile file = good_file();
   file.measurements[0].type = QuantityType::kRadius, file.measurements[0].of = {"low"};
-  EXPECT_THAT(complaint(file), HasSubstr("needs 'low' to be a arc"));
+  EXPECT_THAT(complaint(file), HasSubstr("needs 'low' to be of the type arc"));
   file = good_file();
   file.measurements[0].of = {"low"};
   EXPECT_THAT(complaint(file), HasSubstr("names 1 feature, 2 needed"));
   file = good_file();
   file.measurements[0].of = {"edge", "low"};
-  EXPECT_THAT(complaint(file), HasSubstr("needs 'edge' to be a line"));
+  EXPECT_THAT(complaint(file), HasSubstr("needs 'edge' to be of the type line"));
   file = good_file();
   file.along[0].of = {"edge"};
-  EXPECT_THAT(complaint(file), HasSubstr("needs 'edge' to be a line"));
+  EXPECT_THAT(complaint(file), HasSubstr("needs 'edge' to be of the type line"));
   file = good_file();
   file.along[0].of = {"low", "high"};
   EXPECT_THAT(complaint(file), HasSubstr("names the wrong number of features"));
