@@ -102,6 +102,34 @@ double median_depth_mm(const SessionViews& session, const RigState& state, std::
   return upper_median(depths);
 }
 
+/// Heights that follow from the true ones by a linear rule lie in one plane too, a wrong one. In a wrong
+/// order they do so roughly only: their lines miss the plane by half a percent of the heights' span and more,
+/// those of blocks that are right to a tenth of a millimetre by far less.
+void refuse_wrong_heights(const SessionViews& session, const JointAdjustment& adjustment) {
+  constexpr double kMaxShare = 0.003;
+  for (std::size_t s = 0; s < session.sensor_names.size(); ++s) {
+    Count lines;
+    double low = 0, high = 0;
+    for (const auto& residual : adjustment.residuals) {
+      const auto& view = session.views[residual.view];
+      if (view.sensor != static_cast<int>(s) || !view.height_mm || residual.is_corner()) continue;
+      low = lines.all == 0 ? *view.height_mm : std::min(low, *view.height_mm);
+      high = lines.all == 0 ? *view.height_mm : std::max(high, *view.height_mm);
+      lines.add(residual);
+    }
+    if (lines.used == 0) continue;
+    const double rms_px = std::sqrt(lines.squares_px2 / lines.used);
+    const double range = median_depth_mm(session, adjustment.state, s);
+    const double rms_mm = rms_px * range / adjustment.state.sensors[s].camera.fx;
+    if (rms_mm > kMaxShare * (high - low))
+      throw NotUsable(
+          fmt::format("sensor {}: the lines at the given heights miss one plane by {:.1f} px, about {:.2f} "
+                      "mm; check that "
+                      "heights.csv gives each picture its own height over the bed, in mm",
+                      session.sensor_names[s], rms_px, rms_mm));
+  }
+}
+
 /// The unit that would put the boards at a usual distance.
 const char* likely_unit(double depth_mm) {
   if (depth_mm < 5) return "metres";
@@ -124,6 +152,7 @@ std::vector<StripeAgreement> stripe_agreement(const SessionViews& session,
 void refuse_disagreement(const SessionViews& session, const JointAdjustment& adjustment) {
   const auto counts = count_by_view(session, adjustment.residuals);
   refuse_contradicting_sensors(session, counts);
+  refuse_wrong_heights(session, adjustment);
   for (const auto& stripes : stripe_agreement(session, adjustment))
     if (2 * stripes.agreeing <= stripes.found)
       throw NotUsable(

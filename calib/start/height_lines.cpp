@@ -2,11 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "calib/start/height_lines.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <set>
 
 #include "calib/adjust/session_views.h"
+#include "core/counted.h"
 
 namespace lightstripe {
 namespace {
@@ -71,6 +75,26 @@ bool is_laser_plane(const PlaneFit& fit, const Candidate& like) {
   return fit.determined() && std::abs(fit.plane.offset) > kMinOffset * like.in_space.points.front().norm();
 }
 
+/// Pictures with candidates, and warnings about those of which none was chosen.
+void judge_choice(InitialValues& values, int sensor, const std::vector<Candidate>& all,
+                  const Choice& choice) {
+  std::set<std::size_t> shown, chosen;
+  for (const Candidate& candidate : all) shown.insert(candidate.view);
+  for (const Candidate* candidate : choice.chosen) chosen.insert(candidate->view);
+  if (5 * chosen.size() < 4 * shown.size())
+    throw NotUsable(
+        fmt::format("sensor {}: only {} of {} show a line at their height in one plane; check that "
+                    "heights.csv gives each "
+                    "picture its own height over the bed, in mm",
+                    values.session.sensor_names[static_cast<std::size_t>(sensor)], chosen.size(),
+                    counted(shown.size(), "picture of heights", "pictures of heights")));
+  for (const std::size_t v : shown)
+    if (!chosen.contains(v))
+      values.warnings.push_back(
+          fmt::format("{}: left out, no line of it lies at {:g} mm in the laser plane of the others",
+                      values.session.views[v].image, *values.session.views[v].height_mm));
+}
+
 }  // namespace
 
 void choose_height_lines(InitialValues& values, int sensor) {
@@ -88,6 +112,7 @@ void choose_height_lines(InitialValues& values, int sensor) {
       if (better) best = std::move(choice);
     }
   }
+  judge_choice(values, sensor, all, best);
   for (const Candidate* line : best.chosen) {
     auto& view = values.session.views[line->view];
     view.stripes[0] = independent_points(view.lines[line->line]);

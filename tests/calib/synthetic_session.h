@@ -74,6 +74,20 @@ struct SessionOptions {
   Eigen::Vector2d board_warp_mm = Eigen::Vector2d::Zero();
 };
 
+inline SessionOptions perfect(int poses = 10) {
+  SessionOptions options;
+  options.poses = poses;
+  options.corner_noise_px = options.stripe_noise_px = 0;
+  return options;
+}
+
+inline SessionOptions noisy(int poses = 20, std::uint64_t seed = 0) {
+  SessionOptions options;
+  options.poses = poses;
+  options.seed = seed;
+  return options;
+}
+
 /// Faces the middle between the sensors, then tilted, turned and shifted at random.
 inline Rigid3 random_board(const SyntheticRig& rig, const SessionOptions& options, Random& random) {
   const double fan = (static_cast<double>(rig.sensors.size()) - 1) * 0.5 * 55 * kDegree;
