@@ -50,7 +50,8 @@ struct Names {
   }
   void need(const std::string& name, const std::string& user, FeatureType type) const {
     if (type_of(name, user) != type)
-      throw Error(origin + ": " + user, "needs '" + name + "' to be of the type " + std::string(enum_name(type)),
+      throw Error(origin + ": " + user,
+                  "needs '" + name + "' to be of the type " + std::string(enum_name(type)),
                   "name another feature");
   }
 };
