@@ -86,6 +86,7 @@ class LineFinder {
   double strongest_ = 0;  ///< grey levels, height of the strongest line so far
   int lines_ = 0;
   double heaviest_ = 0;  ///< px times grey levels: the largest length times height of a line so far
+  bool grained_ = false;  ///< a line of this picture is: less like a line than others
   double grained_sigma_ = 0, grain_ = 0;  ///< of the kernels of a grained line; 0: none yet
 };
 
@@ -229,6 +230,7 @@ void LineFinder<T>::allow_for_grain(std::size_t group, double weight, double gra
   if (grain < t.main_grain || weight < heaviest_) return;
   RidgeLimits& limits = groups_.all[group].limits;
   limits.grain = std::max(limits.grain, grain / std::pow(broader, t.grain_falls));
+  grained_ = true;
 }
 
 /// The line followed again at its own scale, where that differs and does not lose much of it.
@@ -331,7 +333,8 @@ template <class T>
 void LineFinder<T>::try_seed(const ScaleSeed& seed) {
   tried(seed.level, seed.x, seed.y) = 1;
   const RungRange rungs = rungs_of(seed.level);
-  const auto ridge = best_scale(w_.pyramid, kernels_, seed.x, seed.y, rungs.first, rungs.last);
+  const auto ridge =
+      best_scale(w_.pyramid, kernels_, seed.x, seed.y, rungs.first, rungs.last, !grained_);
   if (!ridge) {
     w_.patience.add_futile(search_.tuning.futile_seed);
     return;
