@@ -25,8 +25,10 @@ double noise_of(const RidgeLimits& limits, double across, bool grain_counts) {
                                           : limits.strength_noise;
 }
 
+/// On the ridge of a single line the curvature along it vanishes.
 bool is_single_line(const HessianAxes& axes, const RidgeLimits& limits, bool grain_counts) {
-  return is_single_line(axes, noise_of(limits, axes.across, grain_counts));
+  return axes.across < 0 &&
+         std::abs(axes.along) <= -0.15 * axes.across + 2.5 * noise_of(limits, axes.across, grain_counts);
 }
 
 /// The surface's own direction where one line alone makes it, else the predicted one.

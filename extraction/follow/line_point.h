@@ -36,11 +36,6 @@ inline HessianAxes hessian_axes(const Derivatives& d) {
   return axes;
 }
 
-/// On the ridge of a single line the curvature along it vanishes. `noise`: standard deviation of a curvature.
-inline bool is_single_line(const HessianAxes& axes, double noise) {
-  return axes.across < 0 && std::abs(axes.along) <= -0.15 * axes.across + 2.5 * noise;
-}
-
 /// Second derivative in the direction (nx, ny), |n| = 1.
 inline double second_derivative(const Derivatives& d, double nx, double ny) {
   return d.dxx * nx * nx + 2.0 * d.dxy * nx * ny + d.dyy * ny * ny;

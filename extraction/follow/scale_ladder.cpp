@@ -20,8 +20,8 @@ constexpr double kFaintestHeight = 3;  // grey levels, of a stripe's peak
 constexpr double kMostAlong = 0.4;     // of the curvature across: a dot has 1, a line 0
 constexpr double kNoisyAlong = 2.5;    // standard deviations that noise may add to it
 constexpr double kOwnMaximum = 0.5;    // of the largest one: a narrower maximum as high as this is the line's
-constexpr std::size_t kSamples = 16;   // points of a line that are looked at
-constexpr double kSampleSpacing = 1.5; // sigma, at least: nearer ones see the same pixels
+constexpr std::size_t kSamples = 16;   // points of a line that are looked at, at most
+constexpr double kSampleSpacing = 1.5;  // sigma between them, at least: nearer ones see the same pixels
 
 /// Columns [begin, end) of a row of the coarser image.
 template <class T>
@@ -81,64 +81,31 @@ Derivatives derivatives_at(ImagePyramid<T>& pyramid, const DerivativeKernels& ke
       pyramid.border_window);
 }
 
-/// The image surface at one place, seen at one rung.
-struct RungLook {
-  int level = 0;
-  const DerivativeKernels* kernels = nullptr;
-  double noise = 0;  ///< standard deviation of a curvature
-  Derivatives derivatives;
+/// Strength of the line near a place at one rung, grey levels / px^2 of the whole image; 0 where there is
+/// none.
+template <class T>
+double strength_at(ImagePyramid<T>& pyramid, KernelCache& cache, double x, double y, int rung) {
+  const int level = std::min(ScaleLadder::level(rung), pyramid.count - 1);
+  const double bin = 1 << level, per_area = 1 / (bin * bin);
+  const DerivativeKernels& kernels = cache.of_rung(rung, level);
+  const double noise = pyramid.noise[static_cast<std::size_t>(level)] * kernels.curvature_gain;
   HessianAxes axes;
-};
-
-template <class T>
-RungLook look_at(ImagePyramid<T>& pyramid, KernelCache& cache, double x, double y, int rung) {
-  RungLook look;
-  look.level = std::min(ScaleLadder::level(rung), pyramid.count - 1);
-  look.kernels = &cache.of_rung(rung, look.level);
-  look.noise = pyramid.noise[static_cast<std::size_t>(look.level)] * look.kernels->curvature_gain;
-  look.derivatives = derivatives_at(pyramid, *look.kernels, look.level, x, y);
-  look.axes = hessian_axes(look.derivatives);
-  return look;
-}
-
-/// Strength of the line near (x, y) at the rung of `look`, which was taken there; grey levels / px^2 of the
-/// whole image; 0 where there is none.
-template <class T>
-double strength_near(ImagePyramid<T>& pyramid, const RungLook& look, double x, double y) {
-  if (look.axes.across >= 0) return 0;
-  const double bin = 1 << look.level, per_area = 1 / (bin * bin);
-  const DerivativeKernels& kernels = *look.kernels;
   // Once more from the ridge, which the seed may miss by about a kernel's width.
-  const double nx = look.axes.normal_x, ny = look.axes.normal_y;
-  const double t = std::clamp(ridge_offset(look.derivatives, nx, ny, look.axes.across), -kernels.sigma,
-                              kernels.sigma) *
-                   bin;
-  const HessianAxes axes =
-      hessian_axes(derivatives_at(pyramid, kernels, look.level, x + t * nx, y + t * ny));
-  if (axes.across >= 0) return 0;
-  const double least = std::max(kClearOfNoise * look.noise, kFaintestHeight * kernels.matched_strength());
-  if (-axes.across < least || std::abs(axes.along) > -kMostAlong * axes.across + kNoisyAlong * look.noise)
+  for (int step = 0; step < 2; ++step) {
+    const Derivatives d = derivatives_at(pyramid, kernels, level, x, y);
+    axes = hessian_axes(d);
+    if (axes.across >= 0) return 0;
+    if (step == 1) break;
+    const double t = std::clamp(ridge_offset(d, axes.normal_x, axes.normal_y, axes.across), -kernels.sigma,
+                                kernels.sigma) *
+                     bin;
+    x += t * axes.normal_x;
+    y += t * axes.normal_y;
+  }
+  const double least = std::max(kClearOfNoise * noise, kFaintestHeight * kernels.matched_strength());
+  if (-axes.across < least || std::abs(axes.along) > -kMostAlong * axes.across + kNoisyAlong * noise)
     return 0;
   return -axes.across * per_area;
-}
-
-/// Whether one line alone is seen at the rung that is strongest before any step onto the ridge, or at one of
-/// its neighbours.
-bool shows_single_line(const std::array<RungLook, ScaleLadder::kRungs>& looks, int first, int last) {
-  int strongest = first;
-  double largest = 0;
-  for (int rung = first; rung <= last; ++rung) {
-    const RungLook& look = looks[static_cast<std::size_t>(rung)];
-    const double response = -look.axes.across * ScaleLadder::normalisation(rung) / (1 << (2 * look.level));
-    if (response <= largest) continue;
-    largest = response;
-    strongest = rung;
-  }
-  for (int rung = std::max(first, strongest - 1); rung <= std::min(last, strongest + 1); ++rung) {
-    const RungLook& look = looks[static_cast<std::size_t>(rung)];
-    if (is_single_line(look.axes, look.noise)) return true;
-  }
-  return false;
 }
 
 /// Where the parabola through three neighbouring values is largest, relative to the middle one.
@@ -147,10 +114,8 @@ double peak_offset(double before, double at, double after) {
   return bend < 0 ? std::clamp(0.5 * (before - after) / bend, -0.5, 0.5) : 0.0;
 }
 
-/// Samples lie as far from one end as from the other.
-std::size_t first_sample(std::size_t count, std::size_t step) { return (count - 1) % step / 2; }
-
-/// Mean strength across the known normals of each `step`-th point of a line, normalised.
+/// Mean strength across the known normals of each `step`-th point of a line, normalised. The samples lie as
+/// far from one end as from the other.
 template <class T>
 double line_response(ImagePyramid<T>& pyramid, KernelCache& cache, std::span<const StripePoint> points,
                      std::size_t step, int rung) {
@@ -158,7 +123,7 @@ double line_response(ImagePyramid<T>& pyramid, KernelCache& cache, std::span<con
   const double bin = 1 << level;
   const DerivativeKernels& kernels = cache.of_rung(rung, level);
   double sum = 0;
-  for (std::size_t i = first_sample(points.size(), step); i < points.size(); i += step) {
+  for (std::size_t i = (points.size() - 1) % step / 2; i < points.size(); i += step) {
     const StripePoint& p = points[i];
     sum -= second_derivative(derivatives_at(pyramid, kernels, level, p.x, p.y), p.normal_x, p.normal_y);
   }
@@ -225,20 +190,13 @@ void build_pyramid(ImageView<T> image, const LevelNoise& noise, const SearchWind
 
 template <class T>
 std::optional<ScaledRidge> best_scale(ImagePyramid<T>& pyramid, KernelCache& kernels, double x, double y,
-                                      int first, int last, bool followed) {
-  first = std::max(first, 0);
-  last = std::min(last, ScaleLadder::kRungs - 1);
-  std::array<RungLook, ScaleLadder::kRungs> looks;
-  for (int rung = first; rung <= last; ++rung)
-    looks[static_cast<std::size_t>(rung)] = look_at(pyramid, kernels, x, y, rung);
-  if (followed && !shows_single_line(looks, first, last)) return std::nullopt;
+                                      int first, int last) {
   std::array<double, ScaleLadder::kRungs + 2> normalised{};  // with a 0 at both ends
   double largest = 0;
   int best = -1;
-  for (int rung = first; rung <= last; ++rung) {
+  for (int rung = std::max(first, 0); rung <= std::min(last, ScaleLadder::kRungs - 1); ++rung) {
     const auto k = static_cast<std::size_t>(rung + 1);
-    normalised[k] = strength_near(pyramid, looks[static_cast<std::size_t>(rung)], x, y) *
-                    ScaleLadder::normalisation(rung);
+    normalised[k] = strength_at(pyramid, kernels, x, y, rung) * ScaleLadder::normalisation(rung);
     largest = std::max(largest, normalised[k]);
   }
   if (largest <= 0) return std::nullopt;
@@ -257,8 +215,8 @@ template <class T>
 double scale_of_line(ImagePyramid<T>& pyramid, KernelCache& kernels, std::span<const StripePoint> points,
                      double sigma) {
   constexpr int kLast = ScaleLadder::kRungs - 1;
-  const std::size_t step = std::max({std::size_t{1}, points.size() / kSamples,
-                                     static_cast<std::size_t>(kSampleSpacing * sigma)});
+  const std::size_t step =
+      std::max({std::size_t{1}, points.size() / kSamples, static_cast<std::size_t>(kSampleSpacing * sigma)});
   std::array<double, ScaleLadder::kRungs> responses{};
   const auto response = [&](int rung) {
     double& r = responses[static_cast<std::size_t>(rung)];
@@ -299,9 +257,9 @@ template void build_pyramid<std::uint8_t>(ImageView8, const LevelNoise&, const S
 template void build_pyramid<std::uint16_t>(ImageView16, const LevelNoise&, const SearchWindows&,
                                            ImagePyramid<std::uint16_t>&);
 template std::optional<ScaledRidge> best_scale<std::uint8_t>(ImagePyramid<std::uint8_t>&, KernelCache&,
-                                                             double, double, int, int, bool);
+                                                             double, double, int, int);
 template std::optional<ScaledRidge> best_scale<std::uint16_t>(ImagePyramid<std::uint16_t>&, KernelCache&,
-                                                              double, double, int, int, bool);
+                                                              double, double, int, int);
 template double scale_of_line<std::uint8_t>(ImagePyramid<std::uint8_t>&, KernelCache&,
                                             std::span<const StripePoint>, double);
 template double scale_of_line<std::uint16_t>(ImagePyramid<std::uint16_t>&, KernelCache&,

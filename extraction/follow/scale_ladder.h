@@ -83,11 +83,10 @@ struct ScaledRidge {
 };
 
 /// The best of the rungs from `first` to `last` near (x, y), px. Nothing where no rung shows a bright line
-/// that stands clear of the noise and is longer than wide. `followed`: nothing, too, where no rung shows one
-/// line alone at (x, y) itself, which following asks of a line's first place.
+/// that stands clear of the noise and is longer than wide.
 template <class T>
 std::optional<ScaledRidge> best_scale(ImagePyramid<T>& pyramid, KernelCache& kernels, double x, double y,
-                                      int first, int last, bool followed = false);
+                                      int first, int last);
 
 /// The scale at which the points of a line, found at `sigma` px, are strongest on average; px.
 template <class T>
