@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <span>
 
 #include "extraction/follow/direction_guided_between.h"
 #include "extraction/follow/line_looks.h"
@@ -83,7 +82,7 @@ class LineFinder {
   ScaleGroups& groups_;
   MaskLabels labels_;
   int lines_ = 0;
-  /// Grey levels, height of the strongest line so far; px times grey levels, the largest length times height.
+  /// Grey levels, height of the strongest line; the largest length times height, px times grey levels.
   double strongest_ = 0, heaviest_ = 0;
   double grained_sigma_ = 0, grain_ = 0;  ///< of the kernels of a grained line; 0: none yet
 };
@@ -175,7 +174,7 @@ void LineFinder<T>::to_full_image(ScaleGroup& group) {
   range.end = points.size();
 }
 
-/// The line goes, its place is free again.
+/// The line goes, and its place is free again.
 template <class T>
 void LineFinder<T>::take_back(const Followed& line) {
   LineSet& lines = groups_.all[line.group].lines;
