@@ -39,6 +39,7 @@ CalibrationErrors calibration_errors(const std::filesystem::path& rig_file,
   if (rig_file.empty()) return {};
   const Rig rig = read_rig(rig_file);
   CalibrationErrors out;
+  out.rig_file = rig_file;
   out.why_not = why_bends_do_not_hold(rig, table, sections);
   if (out.counted()) {
     // Place and axis are among the errors that bend the sections: each counts once.

@@ -14,6 +14,7 @@
 namespace lightstripe {
 
 struct CalibrationErrors {
+  std::filesystem::path rig_file;           ///< empty: none is known
   SectionBends bends;                       ///< that hold for these sections
   std::optional<double> place_sigma_mm;     ///< of a point's place: stands for the bends where there are none
   std::optional<double> axis_sigma_mm;      ///< of the distance from a rotary rig's axis, likewise

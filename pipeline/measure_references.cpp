@@ -4,10 +4,15 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "core/error.h"
 #include "measure/section_bends.h"
 #include "measure/track_gauge.h"
+#include "parallel/parallel.h"
 #include "pipeline/conicity_job.h"
+#include "pipeline/rig_of_sections.h"
+#include "pipeline/run_record.h"
 
 namespace lightstripe {
 namespace {
@@ -20,10 +25,8 @@ std::optional<IdentifiedRail> identify(const ReferenceChoice& choice, const Meas
   return identify_rail(input.profiles, options.registration);
 }
 
-Baseline read_baseline(const std::string& file, const ReferenceShape& nominal,
-                       const MeasureOptions& options) {
-  const MeasureInput earlier = read_measure_input(file, nominal.kind());
-  return Baseline(earlier.profiles, nominal, earlier.prior, options.registration, file);
+bool same_contents(const std::filesystem::path& a, const std::filesystem::path& b) {
+  return facts_of(a).sha256 == facts_of(b).sha256;
 }
 
 ReferenceWheelset read_wheelset(const ReferenceChoice& choice) {
@@ -74,7 +77,7 @@ MeasureReferences::MeasureReferences(const ReferenceChoice& choice, const Measur
     between_u_ = place_between(choice, input);
     if (!choice.nominal_right.empty()) right_ = read_reference(choice.nominal_right, input.kind);
   }
-  if (!choice.baseline.empty()) baseline_ = read_baseline(choice.baseline, nominal_, options);
+  if (!choice.baseline.empty()) take_baseline(choice.baseline, options);
 }
 
 const ReferenceShape& MeasureReferences::at(double travel) const {
@@ -82,24 +85,49 @@ const ReferenceShape& MeasureReferences::at(double travel) const {
   return earlier ? *earlier : nominal_;
 }
 
+void MeasureReferences::take_baseline(const std::string& file, const MeasureOptions& options) {
+  const MeasureInput earlier = read_measure_input(file, nominal_.kind());
+  const auto laid_on_nominal = [&](const std::vector<Profile>& profiles) {
+    return Baseline(profiles, nominal_, earlier.prior, options.registration, file);
+  };
+  baseline_ = laid_on_nominal(earlier.profiles);
+  if (!errors_.counted()) return;
+  const RigOfSections rig = rig_of_sections(file, {});
+  same_rig_ = !rig.file.empty() && same_contents(rig.file, errors_.rig_file);
+  const SectionBends bends =
+      same_rig_ ? errors_.bends : calibration_errors(rig.file, file, earlier.profiles).bends;
+  baselines_error_is_missing_ = bends.bends.empty();
+  std::vector<std::optional<Baseline>> laid(bends.bends.size());
+  parallel_for(laid.size(), [&](std::size_t bend) {
+    std::vector<Profile> profiles = earlier.profiles;
+    for (Profile& profile : profiles) profile = bent(profile, bends, bend);
+    laid[bend] = laid_on_nominal(profiles);
+  });
+  for (auto& baseline : laid) bent_baselines_.push_back(*std::move(baseline));
+}
+
 MeasuredFrame MeasureReferences::measure(const Profile& profile, const MeasureInput& input,
                                          const MeasureOptions& options) const {
-  return measure_with_errors(errors_.bends.bends.size(), [&](std::optional<std::size_t> bend) {
-    if (!bend) return measure_seen(profile, input, options, wheelset_ ? &*wheelset_ : nullptr);
-    return measure_seen(bent(profile, errors_.bends, *bend), input, options,
-                        wheelset_ ? &*wheelset_without_sigma_ : nullptr);
+  const std::size_t own = errors_.bends.bends.size(), of_baseline = same_rig_ ? 0 : bent_baselines_.size();
+  const Baseline* const baseline = baseline_ ? &*baseline_ : nullptr;
+  return measure_with_errors(own + of_baseline, [&](std::optional<std::size_t> error) {
+    if (!error) return measure_seen(profile, input, options, {baseline, wheelset_ ? &*wheelset_ : nullptr});
+    Standards standards{baseline, wheelset_ ? &*wheelset_without_sigma_ : nullptr};
+    if (same_rig_ || *error >= own) standards.baseline = &bent_baselines_[same_rig_ ? *error : *error - own];
+    return measure_seen(*error < own ? bent(profile, errors_.bends, *error) : profile, input, options,
+                        standards);
   });
 }
 
 MeasuredFrame MeasureReferences::measure_seen(const Profile& profile, const MeasureInput& input,
                                               const MeasureOptions& options,
-                                              const ReferenceWheelset* wheelset) const {
+                                              const Standards& standards) const {
   if (between_u_)
-    return measure_track(profile, {nominal_, right(), *between_u_, errors_.place_sigma_mm, wheelset},
-                         options);
-  const MeasuredObject object{at(profile.travel), input.prior, input.wheel};
-  if (baseline_ && baseline_->at(profile.travel) == nullptr)
-    return without_reference(profile, object, options);
+    return measure_track(
+        profile, {nominal_, right(), *between_u_, errors_.place_sigma_mm, standards.wheelset}, options);
+  const ReferenceShape* const earlier = standards.baseline ? standards.baseline->at(profile.travel) : nullptr;
+  const MeasuredObject object{earlier ? *earlier : nominal_, input.prior, input.wheel};
+  if (standards.baseline && !earlier) return without_reference(profile, object, options);
   return measure_profile(profile, object, options);
 }
 

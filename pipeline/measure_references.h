@@ -32,6 +32,8 @@ class MeasureReferences {
   MeasureReferences(const ReferenceChoice& choice, const MeasureInput& input, const MeasureOptions& options,
                     const CalibrationErrors& errors);
 
+  /// An earlier scan was given whose rig is not known: what its calibration errs by does not count.
+  bool baselines_error_is_missing() const { return baselines_error_is_missing_; }
   /// What a section is drawn with, too.
   const ReferenceShape& at(double travel) const;
   /// Of the other rail, if there are two.
@@ -45,14 +47,23 @@ class MeasureReferences {
   std::vector<std::string> extra_columns() const;
 
  private:
-  /// As if the calibration were without error; `wheelset` may be nullptr.
+  /// What a section is measured with, as it is or under one of the calibration's errors.
+  struct Standards {
+    const Baseline* baseline;
+    const ReferenceWheelset* wheelset;
+  };
+  /// As if the calibration were without error.
   MeasuredFrame measure_seen(const Profile& profile, const MeasureInput& input, const MeasureOptions& options,
-                             const ReferenceWheelset* wheelset) const;
+                             const Standards& standards) const;
+  void take_baseline(const std::string& file, const MeasureOptions& options);
 
   std::optional<IdentifiedRail> identified_;
   ReferenceShape nominal_;
   std::optional<ReferenceShape> right_;
   std::optional<Baseline> baseline_;
+  /// Under each error of its own rig's calibration; where that is the scan's rig, both err at once.
+  std::vector<Baseline> bent_baselines_;
+  bool same_rig_ = false, baselines_error_is_missing_ = false;
   std::optional<double> between_u_;  ///< two rails: where they part
   CalibrationErrors errors_;
   std::optional<ReferenceWheelset> wheelset_, wheelset_without_sigma_;

@@ -50,6 +50,8 @@ Messages describe_measurement(const MeasureJob& job, const MeasureResult& result
         "few degrees fixes an "
         "axis half a metre away only to a millimetre; it is common to all frames");
   out.append(describe_calibration_error(result.rig, result.calibration, job.profiles));
+  if (result.references.baselines_error_is_missing())
+    out.say("the sigmas do not count the error of the baseline's own calibration: no record names its rig");
   std::map<std::string, int> reasons;
   for (const MeasuredFrame& row : result.rows)
     if (row.status != "ok") ++reasons[row.status];

@@ -129,6 +129,60 @@ TEST_F(MeasureWornRail, ThreadsDoNotChangeABit) {
   EXPECT_EQ(text_of(*folder_ / "one.csv"), text_of(*folder_ / "two.csv"));
 }
 
+double mean_of(const std::filesystem::path& table, const std::string& column) {
+  CsvReader rows(table, {column});
+  double sum = 0;
+  int count = 0;
+  while (rows.next()) sum += rows.number(0), ++count;
+  return sum / count;
+}
+
+// The sections' record names the rig: its calibration counts without being asked for.
+TEST_F(MeasureWornRail, TheRigThatMadeTheSectionsCountsByItself) {
+  const std::string at = quoted(folder_->path());
+  const auto measure = [&](const std::string& options) {
+    const CommandResult done =
+        run_lightstripe("measure " + at + "/" + options + " --kind rail -o " + at + "/r.csv");
+    EXPECT_EQ(done.exit_code, 0) << done.err;
+    return done;
+  };
+  const CommandResult found = measure("profiles.csv");
+  EXPECT_THAT(found.out, HasSubstr("the sigmas count the calibration's error: "));
+  EXPECT_THAT(text_of(*folder_ / "r.csv.run.yaml"), HasSubstr("calibration_error: counted\n"));
+  EXPECT_THAT(text_of(*folder_ / "r.csv.run.yaml"), HasSubstr("s/rig.yaml"));
+  const std::string table = text_of(*folder_ / "r.csv");
+  measure("profiles.csv --rig " + at + "/s/rig.yaml");
+  EXPECT_EQ(text_of(*folder_ / "r.csv"), table) << "as if it were named";
+  // A table without a record, and one whose rig was calibrated anew.
+  std::filesystem::copy(*folder_ / "profiles.csv", *folder_ / "alone.csv");
+  EXPECT_THAT(measure("alone.csv").out, HasSubstr("do not count the calibration's error: give --rig"));
+  EXPECT_LT(1.2 * mean_of(*folder_ / "r.csv", "vertical_wear_sigma"),
+            mean_of(*folder_ / "m.csv", "vertical_wear_sigma"));
+  std::filesystem::rename(*folder_ / "s/rig.yaml", *folder_ / "s/kept.yaml");
+  write_text(*folder_ / "s/rig.yaml", text_of(*folder_ / "s/truth/rig.yaml"));
+  const CommandResult changed = measure("profiles.csv");
+  EXPECT_THAT(changed.err, HasSubstr("has changed since profiles.csv was made with it"));
+  EXPECT_THAT(changed.err, HasSubstr("--rig"));
+  EXPECT_THAT(text_of(*folder_ / "r.csv"), ::testing::EndsWith(",not counted\n"));
+  EXPECT_THAT(text_of(*folder_ / "r.csv.run.yaml"), HasSubstr("calibration_error: \"not counted: "));
+  std::filesystem::rename(*folder_ / "s/kept.yaml", *folder_ / "s/rig.yaml");
+}
+
+// What both scans of one rig have in common is no wear.
+TEST_F(MeasureWornRail, ABaselineOfTheSameRigErrsAlike) {
+  const std::string at = quoted(folder_->path());
+  std::filesystem::copy(*folder_ / "profiles.csv", *folder_ / "other.csv");
+  std::map<std::string, double> sigma;
+  for (const std::string earlier : {"profiles", "other"}) {
+    const CommandResult done = run_lightstripe("measure " + at + "/profiles.csv --kind rail --baseline " +
+                                               at + "/" + earlier + ".csv -o " + at + "/b.csv");
+    ASSERT_EQ(done.exit_code, 0) << done.err;
+    sigma[earlier] = mean_of(*folder_ / "b.csv", "vertical_wear_sigma");
+    EXPECT_EQ(done.out.find("baseline's own calibration") == std::string::npos, earlier == "profiles");
+  }
+  EXPECT_LT(1.1 * sigma["profiles"], sigma["other"]);
+}
+
 TEST_F(MeasureWornRail, ExportedSectionsAreReadBack) {
   const std::string at = quoted(folder_->path());
   for (const std::string format : {"miniprof", "simpack"}) {

@@ -11,6 +11,7 @@
 
 #include "command_line.h"
 #include "io/csv_reader.h"
+#include "io/rig_file.h"
 
 namespace lightstripe {
 namespace {
@@ -155,6 +156,42 @@ TEST_F(Track, GaugesSigmaIsTheRigs) {
     EXPECT_NEAR(rows.number(0), std::sqrt(2.0) * 0.05, 0.01);
     EXPECT_GT(rows.number(1), 0.001);
   }
+}
+
+// A calibration that may shift the left rail's sensors sideways by 0.2 mm, and turn them by 0.2 mm in 100:
+// the gauge errs by the first (and a little by the second), the conicity by both. The rig frame's origin is
+// the first sensor: the left rail's head lies about (-308, -222).
+TEST_F(Track, BendsOfTheRigCountInGaugeAndConicity) {
+  Rig rig = read_rig(*folder_ / "s/truth/rig.yaml");
+  SectionBends bends{{-308, -222}, 100, {std::vector<double>(48, 0.0), std::vector<double>(48, 0.0)}};
+  for (const std::size_t sensor : {0, 1}) {
+    bends.bends[0][12 * sensor] = 0.2;
+    bends.bends[1][12 * sensor + 2] = -0.2, bends.bends[1][12 * sensor + 7] = 0.2;
+  }
+  rig.quality.section_bends = bends;
+  write_text(*folder_ / "bends.yaml", rig_to_yaml(rig));
+  const std::string at = quoted(folder_->path());
+  const CommandResult done =
+      run_lightstripe("measure " + at + "/profiles.csv --kind rail --rails two --wheelset S1002 --rig " + at +
+                      "/bends.yaml --conicity " + at + "/bc.csv -o " + at + "/b.csv");
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  CsvReader rows(*folder_ / "b.csv",
+                 {"gauge_sigma", "conicity_sigma", "side_wear_sigma", "calibration_error"}),
+      before(*folder_ / "m.csv", {"conicity_sigma", "side_wear_sigma", "calibration_error"});
+  while (rows.next() && before.next()) {
+    EXPECT_NEAR(rows.number(0), 0.2, 0.03);
+    EXPECT_GT(rows.number(1), 1.1 * before.number(0));
+    EXPECT_NEAR(rows.number(2), before.number(1), 0.003) << "a rigid move is no wear";
+    EXPECT_EQ(rows.text(3), "counted");
+    EXPECT_EQ(before.text(2), "not counted");
+  }
+  CsvReader amplitudes(*folder_ / "bc.csv", {"tan_gamma_e_sigma"}),
+      without(*folder_ / "conicity.csv", {"tan_gamma_e_sigma"});
+  double with_bends = 0, alone = 0;
+  while (amplitudes.next() && without.next())
+    if (!amplitudes.text(0).empty() && !without.text(0).empty())
+      with_bends += amplitudes.number(0), alone += without.number(0);
+  EXPECT_GT(with_bends, 1.1 * alone);
 }
 
 TEST_F(Track, TablesForExcelHaveSemicolonsAndDecimalCommas) {

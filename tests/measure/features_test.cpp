@@ -159,19 +159,6 @@ TEST(Features, LimitsGiveAVerdict) {
   EXPECT_EQ(measure_features(section(step_at), file).verdict, "fail");
 }
 
-TEST(Features, AFileThatFitsNotIsRefused) {
-  FeatureFile file = step_file();
-  file.measurements[0].of = {"low", "hihg"};
-  EXPECT_THROW(file.check("f.yaml"), Error);
-  file = step_file();
-  file.measurements[0].type = QuantityType::kRadius, file.measurements[0].of = {"low"};
-  EXPECT_THROW(file.check("f.yaml"), Error);
-  file = step_file();
-  file.features[0].u = {5, 1};
-  EXPECT_THROW(file.check("f.yaml"), Error);
-  step_file().check("f.yaml");
-}
-
 TEST(Features, ATenthOfOutliersIsLeftOut) {
   Profile profile = section(step_at, 0.01);
   for (std::size_t i = 0; i < profile.points.size(); i += 10) profile.points[i].v += 1;
