@@ -46,6 +46,10 @@ struct FollowTuning {
   /// its place to other scales. The exact length is judged later on the
   /// measured line.
   double least_length = 0.4;
+  /// Of the least length, times the strongest line's height: a first try below it is looked at no further.
+  /// The filter of whole lines asks for nearly three times as much of a line that goes on where another one
+  /// ends, for more of others, and a better scale hardly ever adds that much.
+  double hopeless = 0.06;
   /// Of a line's points: where so many have another line within 1.5 sigma, it
   /// is that line seen once more.
   double most_taken = 0.5;
@@ -72,8 +76,8 @@ struct FollowTuning {
   double evident_line = 0.4;
   /// Full widths: so far from a line's end, straight on, its rest may stand out first.
   double widths_beside_end = 12;
-  /// Points of following that a seed costs at which no scale shows a line:
-  /// about 2 microseconds.
+  /// Points of following that a seed costs at which no scale shows a line, or from which none can be
+  /// followed: about 2 microseconds.
   double futile_seed = 3;
   /// The same for what is tried at both ends of a line before it ends.
   double futile_line = 50;

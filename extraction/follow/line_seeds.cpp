@@ -54,11 +54,17 @@ const std::uint8_t* where_of_row(const SeedRule& rule, int y) {
   return rule.where + ((y << rule.binned) + ((1 << rule.binned) >> 1)) * rule.where_stride;
 }
 
-/// Whether any of `count` bytes is not 0; plain enough for the compiler to make vectors of it.
+/// Whether any of `count` bytes is not 0.
 bool any_set(const std::uint8_t* bytes, int count) {
   static_assert(LaserPlace::kNone == 0 && LaserPlace::kFaint == 1);
+  constexpr int kChunk = 64;  // of known length: the compiler makes vectors of it
   std::uint64_t all = 0;
   int i = 0;
+  for (; i + kChunk <= count; i += kChunk) {
+    std::array<std::uint64_t, kChunk / 8> words{};
+    std::memcpy(words.data(), bytes + i, kChunk);
+    for (const std::uint64_t word : words) all |= word;
+  }
   for (; i + 8 <= count; i += 8) {
     std::uint64_t eight = 0;
     std::memcpy(&eight, bytes + i, 8);

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <span>
 
 #include "extraction/follow/direction_guided_between.h"
 #include "extraction/follow/line_looks.h"
@@ -14,13 +13,6 @@
 
 namespace lightstripe {
 namespace {
-
-/// Rungs of the ladder that a seed of one level may belong to: those of its own
-/// level and the next ones.
-struct RungRange {
-  int first, last;
-};
-RungRange rungs_of(int level) { return {2 * level - 2, 2 * level + 4}; }
 
 template <class T>
 class LineFinder {
@@ -69,8 +61,14 @@ class LineFinder {
     return mean_strength(points_of(line)) / groups_.all[line.group].kernels->matched_strength();
   }
   double weight(const Followed& line) const { return length(line) * height(line); }
+  /// So short and faint against the strongest line that the filter of whole lines drops it at any scale.
+  bool is_hopeless(const Followed& line) const {
+    const double least = search_.least_widths * full_width_of(groups_.all[line.group].kernels->sigma);
+    return weight(line) < search_.tuning.hopeless * least * strongest_;
+  }
   void note_grain(const Followed& line);
   void keep_or_reject(const Followed& line, int seed_level);
+  void reject(const Followed& line, int seed_level);
   bool is_untried(const ScaleSeed& seed);
   void try_seed(const ScaleSeed& seed);
   void try_seeds(bool beside_ends);
@@ -83,9 +81,9 @@ class LineFinder {
   OwnScaleWorkspace<T>& w_;
   ScaleGroups& groups_;
   MaskLabels labels_;
-  double strongest_ = 0;  ///< grey levels, height of the strongest line so far
   int lines_ = 0;
-  double heaviest_ = 0;  ///< px times grey levels: the largest length times height of a line so far
+  /// Grey levels, height of the strongest line; the largest length times height, px times grey levels.
+  double strongest_ = 0, heaviest_ = 0;
   double grained_sigma_ = 0, grain_ = 0;  ///< of the kernels of a grained line; 0: none yet
 };
 
@@ -284,20 +282,23 @@ template <class T>
 void LineFinder<T>::keep_or_reject(const Followed& line, int seed_level) {
   const double sigma = groups_.all[line.group].kernels->sigma,
                least = search_.least_widths * full_width_of(sigma);
-  if (length(line) >= search_.tuning.least_length * least &&
-      !runs_beside_another(search_.image, following_.mask, points_of(line), sigma, line.first_label,
-                           search_.tuning.most_taken)) {
-    ++lines_;
-    note_grain(line);
-    // An edge or a crumb: the filter of whole lines drops nearly all of them.
-    if (is_edge(search_.image, points_of(line), sigma) || length(line) < least)
-      add_futile(line);
-    else if (length(line) * height(line) >= search_.tuning.evident_line * least * strongest_)
-      w_.patience.add_line(points_of(line), least / search_.least_widths);
-    block(line, search_.tuning.blocked_by_line, 0);
-    strongest_ = std::max(strongest_, height(line) * std::min(1.0, length(line) / (3 * least)));
-    return;
-  }
+  if (length(line) < search_.tuning.least_length * least ||
+      runs_beside_another(search_.image, following_.mask, points_of(line), sigma, line.first_label,
+                          search_.tuning.most_taken))
+    return reject(line, seed_level);
+  ++lines_;
+  note_grain(line);
+  // An edge or a crumb: the filter of whole lines drops nearly all of them.
+  if (is_edge(search_.image, points_of(line), sigma) || length(line) < least)
+    add_futile(line);
+  else if (length(line) * height(line) >= search_.tuning.evident_line * least * strongest_)
+    w_.patience.add_line(points_of(line), least / search_.least_widths);
+  block(line, search_.tuning.blocked_by_line, 0);
+  strongest_ = std::max(strongest_, height(line) * std::min(1.0, length(line) / (3 * least)));
+}
+
+template <class T>
+void LineFinder<T>::reject(const Followed& line, int seed_level) {
   add_futile(line);
   block(line, search_.tuning.blocked_by_rejected, seed_level);
   take_back(line);
@@ -332,15 +333,13 @@ void LineFinder<T>::try_seed(const ScaleSeed& seed) {
   tried(seed.level, seed.x, seed.y) = 1;
   const RungRange rungs = rungs_of(seed.level);
   const auto ridge = best_scale(w_.pyramid, kernels_, seed.x, seed.y, rungs.first, rungs.last);
-  if (!ridge) {
-    w_.patience.add_futile(search_.tuning.futile_seed);
-    return;
-  }
+  if (!ridge) return w_.patience.add_futile(search_.tuning.futile_seed);
   std::optional<Followed> line;
   // What stands out may be a single grain, which has a scale of its own.
   if (grained_sigma_ > ridge->sigma) line = follow(group_for(grained_sigma_, 0.01), seed.x, seed.y);
   if (!line) line = follow(group_for(ridge->sigma, search_.tuning.shared_scale), seed.x, seed.y);
-  if (!line) return;
+  if (!line) return w_.patience.add_futile(search_.tuning.futile_seed);
+  if (is_hopeless(*line)) return reject(*line, seed.level);
   Followed own = at_own_scale(*line);
   // Only a line that has grown tells its grain.
   if (length(own) > 2 * length(*line)) own = at_own_scale(own, 2);
@@ -351,9 +350,10 @@ void LineFinder<T>::try_seed(const ScaleSeed& seed) {
 template <class T>
 void LineFinder<T>::try_seeds(bool beside_ends) {
   for (const ScaleSeed& seed : w_.seeds) {
+    if (!is_untried(seed)) continue;
     if (labels_.current >= ExclusionMask::kLastLabel || w_.patience.is_over() || has_enough()) return;
     if (seed.rank * search_.brightest < 255 * search_.tuning.faintest_seed * strongest_) return;
-    if (!is_untried(seed) || (beside_ends && !w_.patience.is_beside_end(seed.x, seed.y))) continue;
+    if (beside_ends && !w_.patience.is_beside_end(seed.x, seed.y)) continue;
     try_seed(seed);
   }
 }

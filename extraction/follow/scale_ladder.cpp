@@ -20,7 +20,8 @@ constexpr double kFaintestHeight = 3;  // grey levels, of a stripe's peak
 constexpr double kMostAlong = 0.4;     // of the curvature across: a dot has 1, a line 0
 constexpr double kNoisyAlong = 2.5;    // standard deviations that noise may add to it
 constexpr double kOwnMaximum = 0.5;    // of the largest one: a narrower maximum as high as this is the line's
-constexpr std::size_t kSamples = 16;   // points of a line that are looked at
+constexpr std::size_t kSamples = 16;   // points of a line that are looked at, at most
+constexpr double kSampleSpacing = 1.5;  // sigma between them, at least: nearer ones see the same pixels
 
 /// Columns [begin, end) of a row of the coarser image.
 template <class T>
@@ -113,16 +114,16 @@ double peak_offset(double before, double at, double after) {
   return bend < 0 ? std::clamp(0.5 * (before - after) / bend, -0.5, 0.5) : 0.0;
 }
 
-/// Mean strength across the known normals of a few points of a line, normalised.
+/// Mean strength across the known normals of each `step`-th point of a line, normalised. The samples lie as
+/// far from one end as from the other.
 template <class T>
 double line_response(ImagePyramid<T>& pyramid, KernelCache& cache, std::span<const StripePoint> points,
-                     int rung) {
+                     std::size_t step, int rung) {
   const int level = std::min(ScaleLadder::level(rung), pyramid.count - 1);
   const double bin = 1 << level;
   const DerivativeKernels& kernels = cache.of_rung(rung, level);
-  const std::size_t step = std::max<std::size_t>(1, points.size() / kSamples);
   double sum = 0;
-  for (std::size_t i = step / 2; i < points.size(); i += step) {
+  for (std::size_t i = (points.size() - 1) % step / 2; i < points.size(); i += step) {
     const StripePoint& p = points[i];
     sum -= second_derivative(derivatives_at(pyramid, kernels, level, p.x, p.y), p.normal_x, p.normal_y);
   }
@@ -214,10 +215,12 @@ template <class T>
 double scale_of_line(ImagePyramid<T>& pyramid, KernelCache& kernels, std::span<const StripePoint> points,
                      double sigma) {
   constexpr int kLast = ScaleLadder::kRungs - 1;
+  const std::size_t step =
+      std::max({std::size_t{1}, points.size() / kSamples, static_cast<std::size_t>(kSampleSpacing * sigma)});
   std::array<double, ScaleLadder::kRungs> responses{};
   const auto response = [&](int rung) {
     double& r = responses[static_cast<std::size_t>(rung)];
-    if (r == 0) r = line_response(pyramid, kernels, points, rung);
+    if (r == 0) r = line_response(pyramid, kernels, points, step, rung);
     return r;
   };
   int rung = std::clamp(static_cast<int>(std::lround(2 * std::log2(sigma))), 0, kLast);

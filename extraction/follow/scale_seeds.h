@@ -32,4 +32,10 @@ void collect_scale_seeds(const ImagePyramid<T>& pyramid, int level, const ScaleS
 /// By falling contrast; equals keep their order.
 void sort_by_contrast(const std::vector<ScaleSeed>& found, std::vector<ScaleSeed>& sorted);
 
+/// Rungs of the ladder that a seed of one level may belong to: those of its own level and the next ones.
+struct RungRange {
+  int first, last;
+};
+inline RungRange rungs_of(int level) { return {2 * level - 2, 2 * level + 4}; }
+
 }  // namespace lightstripe

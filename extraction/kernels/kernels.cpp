@@ -9,7 +9,6 @@
 
 #include "core/error.h"
 #include "extraction/kernels/border_window.h"
-#include "extraction/kernels/kernels_window.h"
 
 namespace lightstripe {
 namespace {
@@ -104,39 +103,21 @@ DerivativeKernels make_derivative_kernels(double sigma) {
   return kernels;
 }
 
-PhasedPosition to_phase(double coordinate) {
-  // floor() without its call, which plain x86-64 has no instruction for.
-  const double scaled = coordinate * DerivativeKernels::kPhases + 0.5;
-  int steps = static_cast<int>(scaled);
-  if (steps > scaled) --steps;
-  constexpr int kMask = DerivativeKernels::kPhases - 1;
-  return {(steps - (steps & kMask)) / DerivativeKernels::kPhases, steps & kMask};
-}
-
 template <class T>
-Derivatives evaluate_derivatives(ImageView<T> image, PhasedPosition x, PhasedPosition y,
-                                 const DerivativeKernels& kernels, double tangent_x, double tangent_y,
-                                 std::vector<T>& border_window) {
+Derivatives evaluate_at_border(const ImageView<T>& image, PhasedPosition x, PhasedPosition y,
+                               const DerivativeKernels& kernels, double tangent_x, double tangent_y,
+                               std::vector<T>& border_window) {
   const int left = x.pixel - kernels.radius, top = y.pixel - kernels.radius;
-  const float* weights_x = kernels.phase(x.phase);
-  const float* weights_y = kernels.phase(y.phase);
-  // Whole vectors are read: in the image's last rows they must not run over its end, elsewhere the next row
-  // follows.
-  const int last_row = top + kernels.taps, readable = last_row < image.height ? kernels.taps : kernels.pitch;
-  if (left >= 0 && top >= 0 && left + readable <= image.width && last_row <= image.height &&
-      kernels.pitch <= image.width)
-    return window_derivatives(image.row(top) + left, image.stride, weights_x, weights_y, kernels.taps,
-                              kernels.pitch);
   fill_border_window(image, {left, top, kernels.taps, kernels.pitch, tangent_x, tangent_y}, border_window);
-  return window_derivatives(border_window.data(), kernels.pitch, weights_x, weights_y, kernels.taps,
-                            kernels.pitch);
+  return window_derivatives(border_window.data(), kernels.pitch, kernels.phase(x.phase),
+                            kernels.phase(y.phase), kernels.taps, kernels.pitch);
 }
 
-template Derivatives evaluate_derivatives<std::uint8_t>(ImageView8, PhasedPosition, PhasedPosition,
-                                                        const DerivativeKernels&, double, double,
-                                                        std::vector<std::uint8_t>&);
-template Derivatives evaluate_derivatives<std::uint16_t>(ImageView16, PhasedPosition, PhasedPosition,
-                                                         const DerivativeKernels&, double, double,
-                                                         std::vector<std::uint16_t>&);
+template Derivatives evaluate_at_border<std::uint8_t>(const ImageView8&, PhasedPosition, PhasedPosition,
+                                                      const DerivativeKernels&, double, double,
+                                                      std::vector<std::uint8_t>&);
+template Derivatives evaluate_at_border<std::uint16_t>(const ImageView16&, PhasedPosition, PhasedPosition,
+                                                       const DerivativeKernels&, double, double,
+                                                       std::vector<std::uint16_t>&);
 
 }  // namespace lightstripe

@@ -48,14 +48,45 @@ struct PhasedPosition {
   int phase = 0;  ///< [0, kPhases)
   double value() const { return pixel + phase * (1.0 / DerivativeKernels::kPhases); }
 };
-PhasedPosition to_phase(double coordinate);
+inline PhasedPosition to_phase(double coordinate) {
+  // floor() without its call, which plain x86-64 has no instruction for.
+  const double scaled = coordinate * DerivativeKernels::kPhases + 0.5;
+  int steps = static_cast<int>(scaled);
+  if (steps > scaled) --steps;
+  constexpr int kMask = DerivativeKernels::kPhases - 1;
+  return {(steps - (steps & kMask)) / DerivativeKernels::kPhases, steps & kMask};
+}
+
+/// `top_left`: the window's first pixel; taps rows, of each `pitch` pixels may be read (those from `taps` on
+/// have weight 0). `weights_x`, `weights_y`: three kernels of `pitch` weights. Vectors of the best
+/// instruction set at hand.
+Derivatives window_derivatives(const std::uint8_t* top_left, std::ptrdiff_t stride, const float* weights_x,
+                               const float* weights_y, int taps, int pitch);
+Derivatives window_derivatives(const std::uint16_t* top_left, std::ptrdiff_t stride, const float* weights_x,
+                               const float* weights_y, int taps, int pitch);
+
+/// The same where the window reaches over the border, or whole vectors of it would.
+template <class T>
+Derivatives evaluate_at_border(const ImageView<T>& image, PhasedPosition x, PhasedPosition y,
+                               const DerivativeKernels& kernels, double tangent_x, double tangent_y,
+                               std::vector<T>& border_window);
 
 /// Derivatives at (x, y), both rounded to 1/32 px. Beyond the border the image is continued along the
 /// direction (tangent_x, tangent_y), so that a slanted line runs out of the picture straight;
 /// with (0, 0) the border pixels are repeated. `border_window` is scratch memory.
 template <class T>
-Derivatives evaluate_derivatives(ImageView<T> image, PhasedPosition x, PhasedPosition y,
-                                 const DerivativeKernels& kernels, double tangent_x, double tangent_y,
-                                 std::vector<T>& border_window);
+inline Derivatives evaluate_derivatives(const ImageView<T>& image, PhasedPosition x, PhasedPosition y,
+                                        const DerivativeKernels& kernels, double tangent_x, double tangent_y,
+                                        std::vector<T>& border_window) {
+  const int left = x.pixel - kernels.radius, top = y.pixel - kernels.radius, last_row = top + kernels.taps;
+  // Whole vectors are read: in the image's last rows they must not run over its end, elsewhere the next row
+  // follows.
+  const int readable = last_row < image.height ? kernels.taps : kernels.pitch;
+  if (left >= 0 && top >= 0 && left + readable <= image.width && last_row <= image.height &&
+      kernels.pitch <= image.width)
+    return window_derivatives(image.row(top) + left, image.stride, kernels.phase(x.phase),
+                              kernels.phase(y.phase), kernels.taps, kernels.pitch);
+  return evaluate_at_border(image, x, y, kernels, tangent_x, tangent_y, border_window);
+}
 
 }  // namespace lightstripe

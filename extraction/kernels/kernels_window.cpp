@@ -15,62 +15,159 @@ namespace lightstripe {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Adds columns that were filtered along their length (by the smoothing kernel, the slope's, the curvature's)
-/// to the six sums, lane by lane. `wx`: the columns' weights.
-template <class D, class V>
-HWY_INLINE void add_columns(D d, const float* wx, int pitch, V smooth, V slope, V curvature, V& value, V& dx,
-                            V& dy, V& dxx, V& dxy, V& dyy) {
+/// The six sums, lane by lane.
+template <class D>
+struct LaneSums {
+  hn::Vec<D> value, dx, dy, dxx, dxy, dyy;
+};
+template <class D>
+HWY_INLINE LaneSums<D> no_sums(D d) {
+  const auto zero = hn::Zero(d);
+  return {zero, zero, zero, zero, zero, zero};
+}
+
+/// Columns filtered along their length by the three kernels.
+template <class D>
+struct Columns {
+  hn::Vec<D> smooth, slope, curvature;
+};
+template <class D>
+HWY_INLINE Columns<D> no_columns(D d) {
+  const auto zero = hn::Zero(d);
+  return {zero, zero, zero};
+}
+
+/// One pixel of each column more. `wy`: the weight of its row in the first kernel.
+template <class D>
+HWY_INLINE void add_row(D d, hn::Vec<D> grey, const float* wy, int pitch, Columns<D>& c) {
+  c.smooth = hn::MulAdd(grey, hn::Set(d, wy[0]), c.smooth);
+  c.slope = hn::MulAdd(grey, hn::Set(d, wy[pitch]), c.slope);
+  c.curvature = hn::MulAdd(grey, hn::Set(d, wy[2 * pitch]), c.curvature);
+}
+
+/// `wx`: the columns' weights.
+template <class D>
+HWY_INLINE void add_columns(D d, const Columns<D>& c, const float* wx, int pitch, LaneSums<D>& sums) {
   const auto x0 = hn::LoadU(d, wx), x1 = hn::LoadU(d, wx + pitch), x2 = hn::LoadU(d, wx + 2 * pitch);
-  value = hn::MulAdd(smooth, x0, value);
-  dx = hn::MulAdd(smooth, x1, dx);
-  dxx = hn::MulAdd(smooth, x2, dxx);
-  dy = hn::MulAdd(slope, x0, dy);
-  dxy = hn::MulAdd(slope, x1, dxy);
-  dyy = hn::MulAdd(curvature, x0, dyy);
+  sums.value = hn::MulAdd(c.smooth, x0, sums.value);
+  sums.dx = hn::MulAdd(c.smooth, x1, sums.dx);
+  sums.dxx = hn::MulAdd(c.smooth, x2, sums.dxx);
+  sums.dy = hn::MulAdd(c.slope, x0, sums.dy);
+  sums.dxy = hn::MulAdd(c.slope, x1, sums.dxy);
+  sums.dyy = hn::MulAdd(c.curvature, x0, sums.dyy);
+}
+
+template <class D, class T>
+HWY_INLINE hn::Vec<D> grey_of(D d, const T* pixels) {
+  const hn::Rebind<T, D> d_pixel;
+  const hn::Rebind<std::int32_t, D> d_int;
+  return hn::ConvertTo(d, hn::PromoteTo(d_int, hn::LoadU(d_pixel, pixels)));
+}
+
+/// One vector of columns, two rows at once (their number is even): the sums of one would wait for each other.
+template <class D, class T>
+HWY_INLINE void add_one_vector(D d, const T* pixel, std::ptrdiff_t stride, const float* wx, const float* wy,
+                               int taps, int pitch, LaneSums<D>& sums) {
+  auto even = no_columns(d), odd = no_columns(d);
+  for (int j = 0; j < taps; j += 2, pixel += 2 * stride) {
+    add_row(d, grey_of(d, pixel), wy + j, pitch, even);
+    add_row(d, grey_of(d, pixel + stride), wy + j + 1, pitch, odd);
+  }
+  add_columns(d,
+              Columns<D>{hn::Add(even.smooth, odd.smooth), hn::Add(even.slope, odd.slope),
+                         hn::Add(even.curvature, odd.curvature)},
+              wx, pitch, sums);
+}
+
+/// Two vectors of columns side by side; the second one may be shorter.
+template <class D, class E, class T>
+HWY_INLINE void add_two_vectors(D d, E e, const T* pixel, std::ptrdiff_t stride, const float* wx,
+                                const float* wy, int taps, int pitch, LaneSums<D>& sums_d,
+                                LaneSums<E>& sums_e) {
+  const auto lanes = static_cast<int>(hn::Lanes(d));
+  auto left = no_columns(d);
+  auto right = no_columns(e);
+  for (int j = 0; j < taps; ++j, pixel += stride) {
+    add_row(d, grey_of(d, pixel), wy + j, pitch, left);
+    add_row(e, grey_of(e, pixel + lanes), wy + j, pitch, right);
+  }
+  add_columns(d, left, wx, pitch, sums_d);
+  add_columns(e, right, wx + lanes, pitch, sums_e);
+}
+
+#if HWY_TARGET != HWY_SCALAR && !HWY_HAVE_SCALABLE
+/// Sums of lanes that lie four apart.
+template <class D>
+HWY_INLINE auto to_four(D d, hn::Vec<D> v) {
+  if constexpr (hn::MaxLanes(d) > 4) {
+    const hn::Half<D> half;
+    return to_four(half, hn::Add(hn::LowerHalf(half, v), hn::UpperHalf(half, v)));
+  } else {
+    return v;
+  }
+}
+using Four = hn::FixedTag<float, 4>;
+
+template <class D>
+HWY_INLINE LaneSums<Four> four_of(D d, const LaneSums<D>& s) {
+  return {to_four(d, s.value), to_four(d, s.dx),  to_four(d, s.dy),
+          to_four(d, s.dxx),   to_four(d, s.dxy), to_four(d, s.dyy)};
+}
+
+/// All six at once: one by one each would wait for its own chain of shuffles.
+HWY_INLINE Derivatives sums_of_four(const LaneSums<Four>& s) {
+  const Four d;
+  const auto pair = [d](auto a, auto b) {  // a0 + a2, b0 + b2, a1 + a3, b1 + b3
+    return hn::Add(hn::InterleaveLower(d, a, b), hn::InterleaveUpper(d, a, b));
+  };
+  const auto ab = pair(s.value, s.dx), cd = pair(s.dy, s.dxx), ef = pair(s.dxy, s.dyy);
+  HWY_ALIGN float sums[8];
+  hn::Store(hn::Add(hn::ConcatLowerLower(d, cd, ab), hn::ConcatUpperUpper(d, cd, ab)), d, sums);
+  hn::Store(hn::Add(ef, hn::ConcatUpperUpper(d, ef, ef)), d, sums + 4);
+  return {sums[0], sums[1], sums[2], sums[3], sums[4], sums[5]};
+}
+
+template <class D>
+HWY_INLINE Derivatives sums_of_lanes(D d, const LaneSums<D>& s) {
+  return sums_of_four(four_of(d, s));
+}
+#else
+template <class D>
+HWY_INLINE Derivatives sums_of_lanes(D d, const LaneSums<D>& s) {
+  const auto sum = [d](hn::Vec<D> v) { return hn::GetLane(hn::SumOfLanes(d, v)); };
+  return {sum(s.value), sum(s.dx), sum(s.dy), sum(s.dxx), sum(s.dxy), sum(s.dyy)};
+}
+#endif
+
+template <class D, class T>
+HWY_INLINE Derivatives window_of(D d, const T* top_left, std::ptrdiff_t stride, const float* wx,
+                                 const float* wy, int taps, int pitch) {
+  const auto lanes = static_cast<int>(hn::Lanes(d));
+  LaneSums<D> sums = no_sums(d);
+#if HWY_TARGET != HWY_SCALAR && !HWY_HAVE_SCALABLE
+  if constexpr (hn::MaxLanes(d) == 16) {
+    // So wide are the kernels of most stripes: of two whole vectors a quarter would be in vain.
+    if (taps > 16 && taps <= 24) {
+      const hn::Half<D> half;
+      LaneSums<hn::Half<D>> right = no_sums(half);
+      add_two_vectors(d, half, top_left, stride, wx, wy, taps, pitch, sums, right);
+      const LaneSums<Four> a = four_of(d, sums), b = four_of(half, right);
+      return sums_of_four({hn::Add(a.value, b.value), hn::Add(a.dx, b.dx), hn::Add(a.dy, b.dy),
+                           hn::Add(a.dxx, b.dxx), hn::Add(a.dxy, b.dxy), hn::Add(a.dyy, b.dyy)});
+    }
+  }
+#endif
+  int i = 0;
+  for (; i + lanes < taps; i += 2 * lanes)
+    add_two_vectors(d, d, top_left + i, stride, wx + i, wy, taps, pitch, sums, sums);
+  if (i < taps) add_one_vector(d, top_left + i, stride, wx + i, wy, taps, pitch, sums);
+  return sums_of_lanes(d, sums);
 }
 
 template <class T>
 Derivatives window(const T* top_left, std::ptrdiff_t stride, const float* wx, const float* wy, int taps,
                    int pitch) {
-  const hn::CappedTag<float, DerivativeKernels::kLanes> d;
-  const hn::Rebind<T, decltype(d)> d_pixel;
-  const hn::Rebind<std::int32_t, decltype(d)> d_int;
-  const auto grey = [&](const T* p) { return hn::ConvertTo(d, hn::PromoteTo(d_int, hn::LoadU(d_pixel, p))); };
-  const auto lanes = static_cast<int>(hn::Lanes(d));
-  auto value = hn::Zero(d), dx = hn::Zero(d), dy = hn::Zero(d);
-  auto dxx = hn::Zero(d), dxy = hn::Zero(d), dyy = hn::Zero(d);
-  int i = 0;
-  // Two vectors of columns at once: the sums of one would wait for each other.
-  for (; i + lanes < taps; i += 2 * lanes) {
-    auto smooth_a = hn::Zero(d), slope_a = hn::Zero(d), curvature_a = hn::Zero(d);
-    auto smooth_b = hn::Zero(d), slope_b = hn::Zero(d), curvature_b = hn::Zero(d);
-    const T* pixel = top_left + i;
-    for (int j = 0; j < taps; ++j, pixel += stride) {
-      const auto a = grey(pixel), b = grey(pixel + lanes);
-      const auto y0 = hn::Set(d, wy[j]), y1 = hn::Set(d, wy[pitch + j]), y2 = hn::Set(d, wy[2 * pitch + j]);
-      smooth_a = hn::MulAdd(a, y0, smooth_a);
-      smooth_b = hn::MulAdd(b, y0, smooth_b);
-      slope_a = hn::MulAdd(a, y1, slope_a);
-      slope_b = hn::MulAdd(b, y1, slope_b);
-      curvature_a = hn::MulAdd(a, y2, curvature_a);
-      curvature_b = hn::MulAdd(b, y2, curvature_b);
-    }
-    add_columns(d, wx + i, pitch, smooth_a, slope_a, curvature_a, value, dx, dy, dxx, dxy, dyy);
-    add_columns(d, wx + i + lanes, pitch, smooth_b, slope_b, curvature_b, value, dx, dy, dxx, dxy, dyy);
-  }
-  if (i < taps) {
-    auto smooth = hn::Zero(d), slope = hn::Zero(d), curvature = hn::Zero(d);
-    const T* pixel = top_left + i;
-    for (int j = 0; j < taps; ++j, pixel += stride) {
-      const auto a = grey(pixel);
-      smooth = hn::MulAdd(a, hn::Set(d, wy[j]), smooth);
-      slope = hn::MulAdd(a, hn::Set(d, wy[pitch + j]), slope);
-      curvature = hn::MulAdd(a, hn::Set(d, wy[2 * pitch + j]), curvature);
-    }
-    add_columns(d, wx + i, pitch, smooth, slope, curvature, value, dx, dy, dxx, dxy, dyy);
-  }
-  const auto sum = [d](auto v) { return hn::GetLane(hn::SumOfLanes(d, v)); };
-  return {sum(value), sum(dx), sum(dy), sum(dxx), sum(dxy), sum(dyy)};
+  return window_of(hn::CappedTag<float, DerivativeKernels::kLanes>(), top_left, stride, wx, wy, taps, pitch);
 }
 
 /// Four sums, of each fourth pixel: few pixels do not fill longer vectors.

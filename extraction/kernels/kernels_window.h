@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The lightstripe authors
 // SPDX-License-Identifier: Apache-2.0
-// The inner loop of point evaluation: one pass over a window, three vertical filters and six dot products.
+// The inner loops of point evaluation. window_derivatives() itself stands in kernels.h: one pass over a
+// window, three vertical filters and six dot products.
 #pragma once
 
 #include <cstddef>
@@ -9,14 +10,6 @@
 #include "extraction/kernels/kernels.h"
 
 namespace lightstripe {
-
-/// `top_left`: the window's first pixel; taps rows, of each `pitch` pixels may be read (those from `taps` on
-/// have weight 0). `weights_x`, `weights_y`: three kernels of `pitch` weights. Vectors of the best
-/// instruction set at hand.
-Derivatives window_derivatives(const std::uint8_t* top_left, std::ptrdiff_t stride, const float* weights_x,
-                               const float* weights_y, int taps, int pitch);
-Derivatives window_derivatives(const std::uint16_t* top_left, std::ptrdiff_t stride, const float* weights_x,
-                               const float* weights_y, int taps, int pitch);
 
 /// Sum of `taps` pixels, `step` elements from one to the next, times their weights.
 float weighted_sum(const std::uint8_t* pixels, std::ptrdiff_t step, const float* weights, int taps);

@@ -7,6 +7,7 @@
 #include <iterator>
 #include <limits>
 
+#include "extraction/follow/direction_guided_ridge.h"
 #include "extraction/lines/line_measure.h"
 
 namespace lightstripe {
@@ -28,8 +29,8 @@ constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
 
 template <class T>
 int rise_at(ImageView<T> image, double x, double y) {
-  const int column = std::clamp(static_cast<int>(std::lround(x)), 0, image.width - 1),
-            row = std::clamp(static_cast<int>(std::lround(y)), 0, image.height - 1);
+  const int column = std::clamp(nearest_pixel(x), 0, image.width - 1),
+            row = std::clamp(nearest_pixel(y), 0, image.height - 1);
   return image.rise[row * image.stride + column];
 }
 
