@@ -128,6 +128,36 @@ void candidates_of_span(const ScanRow<T>& row, int width, const ScanRule<T>& sca
   for (int x = pattern.first_from(right); x < span.end; x += pattern.step) add(x);
 }
 
+/// The strongest seeds of cells, the first of equals.
+class SeedCells {
+ public:
+  SeedCells(int size, int width, SeedWorkspace& w) : size_(size), w_(w) {
+    if (size > 0) w.in_cell.assign(static_cast<std::size_t>(width / size + 1), 0);
+  }
+  void begin_row(int y) {
+    if (size_ == 0 || y / size_ == row_) return;
+    row_ = y / size_;
+    std::fill(w_.in_cell.begin(), w_.in_cell.end(), 0U);
+  }
+  void add(const LineSeed& seed) {
+    if (size_ == 0) {
+      w_.found.push_back(seed);
+      return;
+    }
+    std::uint32_t& place = w_.in_cell[static_cast<std::size_t>(seed.x / size_)];
+    if (place == 0) {
+      w_.found.push_back(seed);
+      place = static_cast<std::uint32_t>(w_.found.size());
+    } else if (w_.found[place - 1].rank < seed.rank) {
+      w_.found[place - 1] = seed;
+    }
+  }
+
+ private:
+  int size_, row_ = 0;
+  SeedWorkspace& w_;
+};
+
 /// A counting sort, which keeps the order of equals.
 void sort_by_rank(SeedWorkspace& w) {
   constexpr std::int32_t kRanks = 512;
@@ -157,16 +187,18 @@ void collect_seeds(ImageView<T> image, const SeedRule& rule, SeedWorkspace& w) {
   w.found.clear();
   const int step = rule.step > 0 ? rule.step : row_step(rule.sigma);
   const int shift = rule.binned, half = (1 << shift) >> 1;
+  SeedCells cells(rule.cell, image.width, w);
   for (int y = step / 2, number = 0; y < image.height; y += step, ++number) {
     const ScanRow<T> row{image.row(y), y >= scan.reach ? image.row(y - scan.reach) : zeros.data(),
                          y + scan.reach < image.height ? image.row(y + scan.reach) : zeros.data()};
     const std::uint8_t* where = where_of_row(rule, y);
+    cells.begin_row(y);
     const auto add = [&](int x) {
       if (where != nullptr && where[(x << shift) + half] < LaserPlace::kFaint) return;
       const T contrast = candidate_contrast(row, x, image.width, scan.reach);
       if (contrast < scan.contrast || row.centre[x] < scan.level) return;
       const auto rank = static_cast<std::int32_t>((static_cast<std::uint64_t>(contrast) * scale) >> 16);
-      w.found.push_back({x, y, std::min(rank, 255), row.centre[x] >= foreground});
+      cells.add({x, y, std::min(rank, 255), row.centre[x] >= foreground});
     };
     for (const ColumnSpan& span : spans_of_row(rule, y, image.width << shift, w)) {
       const ColumnSpan here{span.begin >> shift, std::min(span.end >> shift, image.width)};
