@@ -114,7 +114,7 @@ void LineFinder<T>::begin() {
                     0);
   following_.mask.reset(search_.image.width, search_.image.height, 1);
   w_.patience.reset(search_.image.width, search_.image.height, search_.tuning);
-  groups_.count = 0;
+  groups_.count = groups_.rejected = 0;
   labels_ = {};
   strongest_ = heaviest_ = 0;
   lines_ = 0;
@@ -298,6 +298,7 @@ void LineFinder<T>::keep_or_reject(const Followed& line, int seed_level) {
 
 template <class T>
 void LineFinder<T>::reject(const Followed& line, int seed_level) {
+  ++groups_.rejected;
   add_futile(line);
   block(line, search_.tuning.blocked_by_rejected, seed_level);
   take_back(line);
@@ -383,7 +384,7 @@ template <class T>
 void follow_lines_at_own_scale(const OwnScaleSearch<T>& search, const LimitsMaker& limits,
                                KernelCache& kernels, DirectionGuidedWorkspace<T>& following,
                                OwnScaleWorkspace<T>& workspace, ScaleGroups& groups) {
-  groups.count = 0;
+  groups.count = groups.rejected = 0;
   if (search.image.empty() || search.brightest <= 0) return;
   LineFinder<T>(search, limits, kernels, following, workspace, groups).run();
 }
