@@ -63,6 +63,11 @@ int run_artefact(const VerifyArguments& arguments) {
   const ArtefactResult result = verify_artefact(job, progress_line(common.quiet));
   if (!result.check) return not_usable(result.not_usable);
   say(common, describe_check(*result.check));
+  if (result.sheet_error_mm > 0)
+    say(common,
+        fmt::format("a laser sheet as thick as this one makes the body smaller by about {:.3f} mm, which "
+                    "counts in the sigma",
+                    result.sheet_error_mm));
   if (!arguments.artefact.report.empty())
     write_file(arguments.artefact.report, artefact_report_html(result.history));
   say(common, fmt::format("{}; check {} -> {}", result.usable() ? "passed" : "failed", result.history.size(),

@@ -203,7 +203,7 @@ std::optional<ArtefactMeasurement> measured(const Used& used, const Points3& pla
   for (std::size_t i = 0; i < used.points.size(); ++i) sum += std::pow(distance_of(i), 2);
   return ArtefactMeasurement{size_of(used), std::max(*by_group, *by_place),
                              std::sqrt(sum / static_cast<double>(used.points.size())),
-                             static_cast<int>(used.points.size())};
+                             static_cast<int>(used.points.size()), Vector3d::Zero()};
 }
 
 /// What looks like the body by chance (a ball in a rail's corner, two of many faces) does not lie on its
@@ -252,9 +252,11 @@ std::optional<ArtefactMeasurement> measure_round(const Points3& points, const st
   }
   Points3 normals;
   for (const Vector3d& p : used.points) normals.push_back(body.way_out(p).normalized());
-  return measured(
+  auto out = measured(
       used, normals, [&](const Used& some) { return round_size(some, spec, body); },
       [&](std::size_t i) { return body.distance(used.points[i]); }, why_not);
+  if (out) out->axis = body.axis;
+  return out;
 }
 
 }  // namespace

@@ -31,6 +31,7 @@ struct ArtefactMeasurement {
   double sigma_mm = 0;    ///< of the size, by leaving out parts of the points (jackknife)
   double scatter_mm = 0;  ///< rms of the points that were used about the shape
   int points = 0;         ///< that were used
+  Eigen::Vector3d axis = Eigen::Vector3d::Zero();  ///< of a cylinder, unit
 };
 
 /// `points`: rig frame, mm; `groups`: for each point the part that it is left out with (frames of a scan,

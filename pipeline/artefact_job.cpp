@@ -18,6 +18,7 @@
 #include "io/output_guard.h"
 #include "io/session_file.h"
 #include "io/tables.h"
+#include "measure/sheet_thickness.h"
 #include "pipeline/recording.h"
 #include "pipeline/run_record.h"
 #include "reconstruct/scanner.h"
@@ -34,10 +35,30 @@ constexpr std::string_view kHead =
 struct SeenPoints {
   std::vector<Eigen::Vector3d> points;
   std::vector<int> groups;
-  double sigma_sum = 0;  ///< of the points' predicted sigmas
+  double sigma_sum = 0;                        ///< of the points' predicted sigmas
+  double sheet_squares = 0, sheet_points = 0;  ///< of the sheet's thickness, mm^2
 
+  /// A line's thickness counts with its points. `seen`: one of them, camera frame.
+  void add_line(const Sensor& sensor, const Eigen::Vector3d& seen, const LineWidth& line) {
+    if (sensor.laser_planes.empty()) return;
+    const auto sigma = sheet_sigma_mm(sensor.camera, sensor.laser_planes.front(), seen, line.width_px);
+    if (!sigma) return;
+    sheet_squares += line.points * *sigma * *sigma, sheet_points += line.points;
+  }
+  double sheet_sigma() const { return sheet_points > 0 ? std::sqrt(sheet_squares / sheet_points) : 0; }
   double mean_sigma() const { return points.empty() ? 0 : sigma_sum / static_cast<double>(points.size()); }
 };
+
+void add_lines(const Rig& rig, const Rigid3& result_from_rig, const ScannedFrame& frame, SeenPoints& seen) {
+  for (const LineWidth& line : frame.lines) {
+    const Sensor& sensor = rig.sensors[static_cast<std::size_t>(line.sensor)];
+    for (const ProfilePoint& p : frame.profile.points)
+      if (p.sensor == line.sensor) {
+        seen.add_line(sensor, (result_from_rig * sensor.rig_from_camera).inverse() * p.position, line);
+        break;
+      }
+  }
+}
 
 /// Every frame is a group.
 SeenPoints points_of_scan(const ArtefactJob& job, const ProgressCallback& progress,
@@ -58,6 +79,8 @@ SeenPoints points_of_scan(const ArtefactJob& job, const ProgressCallback& progre
       scan_profiles(input, job.rig, extraction, thread_count(job.threads), [&](const ScannedFrame& frame) {
         for (const ProfilePoint& p : frame.profile.points)
           seen.points.push_back(p.position), seen.groups.push_back(group), seen.sigma_sum += p.sigma_mm;
+        if (const auto position = recording.position(frame.profile.frame); position)
+          add_lines(job.rig, result_from_rig(job.rig.motion, *position), frame, seen);
         ++group;
         steps.step();
       });
@@ -105,6 +128,12 @@ SeenPoints points_of_picture(const ArtefactJob& job) {
 }
 
 std::string now_utc() { return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr))); }
+
+/// Of the first sensor's laser, rig frame.
+Eigen::Vector3d sheet_normal(const Rig& rig) {
+  const Sensor& first = rig.sensors.front();
+  return first.rig_from_camera.rotation * first.laser_planes.front().normal;
+}
 
 /// The rows of the same body.
 std::vector<ArtefactCheck> same_body(std::vector<ArtefactCheck> checks, const ArtefactCheck& as) {
@@ -226,7 +255,11 @@ ArtefactResult verify_artefact(const ArtefactJob& job, const ProgressCallback& p
     result.not_usable = why_not + "; show the whole body in the laser, and check --size";
     return result;
   }
-  const double shared_mm = std::hypot(seen.mean_sigma(), job.size_sigma_mm);
+  if (spec.kind != Artefact::kStep)
+    result.sheet_error_mm =
+        sheet_error_mm(seen.sheet_sigma(), job.spec.size_mm,
+                       spec.section ? Eigen::Vector3d::UnitX() : measurement->axis, sheet_normal(job.rig));
+  const double shared_mm = std::hypot(seen.mean_sigma(), job.size_sigma_mm, result.sheet_error_mm);
   ArtefactCheck check = check_of(job, *measurement, shared_mm);
   result.history = same_body(before, check);
   if (!result.history.empty()) compare_with_last(result.history.back(), shared_mm, check);

@@ -48,12 +48,14 @@ struct ArtefactCheck {
 struct ArtefactResult {
   std::optional<ArtefactCheck> check;  ///< nothing: the body was not found
   std::vector<ArtefactCheck> history;  ///< of the same body, this check the last
+  double sheet_error_mm = 0;           ///< of a round body: what the sheet's thickness may take off, in sigma
   std::string not_usable;              ///< why the rig fails or cannot be judged; empty: it passes
   bool usable() const { return not_usable.empty(); }
 };
 
 /// Sigma of the error: the measurement's own scatter, the points' predicted sigma (with the rig's
-/// section_shape_sigma_mm), which they may share, and the body's.
+/// section_shape_sigma_mm), which they may share, what the sheet's thickness does to a curved body, and the
+/// body's own.
 /// Appends the check to the table and writes <table>.run.yaml. An Error where a file is wrong.
 ArtefactResult verify_artefact(const ArtefactJob& job, const ProgressCallback& progress = {},
                                const std::stop_token& stop = {});

@@ -17,13 +17,13 @@ using ::testing::HasSubstr;
 class ArtefactChecks : public ::testing::Test {
  protected:
   /// `objects`: YAML of the scene. One sensor with a thin sheet of light, no boards: seconds.
-  void simulate(const std::string& objects, int frames) {
+  void simulate(const std::string& objects, int frames, double thickness_sigma_mm = 0.2) {
     write_text(
         folder_ / "scene.yaml",
         "seed: 5\nboards: {count: 0}\nmotion: {positions: 2}\nreflections: {per_frame: 0}\nrail: {profile: "
-        "none}\nimaging: {samples: 4}\nsensors: [{name: solo, laser: {thickness_sigma_mm: 0.2}}]\nscan: "
-        "{frames: " +
-            std::to_string(frames) + ", step_mm: 2}\n" + objects);
+        "none}\nimaging: {samples: 4}\nsensors: [{name: solo, laser: {thickness_sigma_mm: " +
+            std::to_string(thickness_sigma_mm) + "}}]\nscan: {frames: " + std::to_string(frames) +
+            ", step_mm: 2}\n" + objects);
     const auto made =
         run_lightstripe("simulate " + quoted(folder_ / "scene.yaml") + " -o " + quoted(folder_ / "s"));
     ASSERT_EQ(made.exit_code, 0) << made.err;
@@ -69,6 +69,16 @@ TEST_F(ArtefactChecks, ABallPassesAndADriftIsTold) {
   const std::string page = read_file(folder_ / "checks.html");
   EXPECT_THAT(page, HasSubstr("Checks with the sphere of 40 mm"));
   EXPECT_THAT(page, HasSubstr("Error of the size"));
+}
+
+// The sheet lights the ball before and behind its middle: it comes out 0.15 mm small, and sigma says so.
+TEST_F(ArtefactChecks, AThickSheetsErrorCountsInTheSigmaOfABall) {
+  simulate("spheres: [{center: [0, 5, -75], radius_mm: 20}]\nground: {height_mm: -95}\n", 28, 0.6);
+  const auto thick = verify("s/scan.yaml", "--artefact sphere --size 40");
+  EXPECT_EQ(thick.exit_code, 0) << thick.out << thick.err;
+  EXPECT_THAT(thick.out, HasSubstr("makes the body smaller by about 0."));
+  EXPECT_LT(std::abs(checks()[0][0]), 1.5 * checks()[0][1]);
+  EXPECT_LT(checks()[0][1], 0.25);
 }
 
 TEST_F(ArtefactChecks, StepAndCylinderByAScanAndByOnePicture) {

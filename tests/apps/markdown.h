@@ -70,7 +70,13 @@ inline void prepare_own_rig(const TemporaryFolder& folder) {
   std::fill(off.pixels.begin(), off.pixels.end(), std::uint8_t{5});  // a dark room
   write_image(folder / "off.png", off.view());
   fs::copy(LIGHTSTRIPE_SOURCE_DIR "/testdata/one_sensor.yaml", folder / "scene.yaml");
-  fs::create_directory_symlink(LIGHTSTRIPE_SOURCE_DIR "/configs", folder / "configs");
+  fs::copy(LIGHTSTRIPE_SOURCE_DIR "/configs", folder / "configs", fs::copy_options::recursive);
+  // The same stretch in a fifth of the frames: what the pages' commands do with it is the same.
+  std::string scene = text_of(folder / "configs/scenes/first_rig.yaml");
+  const std::string scan = "scan: {frames: 110, step_mm: 1}";
+  ASSERT_NE(scene.find(scan), std::string::npos);
+  scene.replace(scene.find(scan), scan.size(), "scan: {frames: 22, step_mm: 5}");
+  write_text(folder / "configs/scenes/first_rig.yaml", scene);
   fs::create_directories(folder / "build/bin");
   fs::create_symlink(LIGHTSTRIPE_BINARY, folder / "build/bin/lightstripe");
 }

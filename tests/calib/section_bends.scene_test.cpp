@@ -80,8 +80,8 @@ struct Trial {
   }
 };
 
-// 20 repeats know a variance to 32 %; bends scaled by 0.7 or 1.4 change it by a factor of 2.
-constexpr int kRepeats = 20;
+// 30 repeats know a variance to 26 %; bends scaled by 0.7 or 1.4 change it by a factor of 2.
+constexpr int kRepeats = 30;
 constexpr double kLow = 0.6, kHigh = 1.6;
 
 void expect_right(const Tally& tally, const std::string& what) {
