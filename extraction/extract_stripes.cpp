@@ -83,7 +83,7 @@ void filter_groups(const Run<T>& run, double width_slack) {
   w.facts.resize(std::max(w.facts.size(), w.groups.count));
   w.filtered.clear();
   w.tests.edges = {};
-  w.tests.tried = 0;
+  w.tests.tried = w.groups.rejected;
   for (std::size_t g = 0; g < w.groups.count; ++g) {
     ScaleGroup& group = w.groups.all[g];
     filter_lines(run.image, *group.kernels, run.facts.noise.seen, run.options.lines, width_slack, w.tests,
@@ -102,7 +102,7 @@ void find_lines(const Run<T>& run) {
   ExtractionWorkspace& w = run.w;
   if (w.kernels.sigma != run.result.sigma) w.kernels = make_derivative_kernels(run.result.sigma);
   const RidgeLimits limits = ridge_limits(w.kernels, run.facts, run.parsed, run.result);
-  w.groups.count = 0;
+  w.groups.count = w.groups.rejected = 0;
   LineSet& lines = w.groups.add(w.kernels).lines;
   switch (run.options.method) {
     case ExtractionMethod::kDirectionGuided:
@@ -262,7 +262,7 @@ void begin(ExtractionWorkspace& w, ExtractionResult& result) {
   result.impression = Impression::kNone;
   w.tests.edges = {};
   w.tests.tried = 0;
-  w.groups.count = 0;
+  w.groups.count = w.groups.rejected = 0;
 }
 
 /// From the facts to the finished lines.

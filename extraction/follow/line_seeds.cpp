@@ -48,6 +48,14 @@ std::vector<T>& zeros_of(SeedWorkspace& w) {
     return w.zeros16;
 }
 
+template <class T>
+std::vector<T>& contrasts_of(SeedWorkspace& w) {
+  if constexpr (sizeof(T) == 1)
+    return w.contrasts8;
+  else
+    return w.contrasts16;
+}
+
 /// The row of `where` that tells of a row of the searched image.
 const std::uint8_t* where_of_row(const SeedRule& rule, int y) {
   if (rule.where == nullptr) return nullptr;
@@ -105,27 +113,67 @@ ColumnSpan with_surroundings(const ColumnSpan& span, int reach, int width) {
   return {begin, std::min(width, std::max(span.end + reach, begin + kVector + 2 * reach))};
 }
 
-/// The candidates of one span of a row, in reading order.
+/// The candidates of one span of a row, in reading order: add(column, contrast).
 template <class T, class Add>
 void candidates_of_span(const ScanRow<T>& row, int width, const ScanRule<T>& scan, const ColumnSpan& span,
-                        const ColumnPattern& pattern, std::vector<std::uint64_t>& masks, const Add& add) {
+                        const ColumnPattern& pattern, SeedWorkspace& w, const Add& add) {
+  const auto add_at_border = [&](int x) {
+    const T contrast = candidate_contrast(row, x, width, scan.reach);
+    if (contrast >= scan.contrast && row.centre[x] >= scan.level) add(x, contrast);
+  };
   const int left = std::min(std::min(scan.reach, width), span.end),
             right = std::max(std::max(width - scan.reach, std::min(scan.reach, width)), span.begin);
-  for (int x = pattern.first_from(span.begin); x < left; x += pattern.step) add(x);
+  for (int x = pattern.first_from(span.begin); x < left; x += pattern.step) add_at_border(x);
   const ColumnSpan seen = with_surroundings(span, scan.reach, width);
   const ScanRow<T> part{row.centre + seen.begin, row.above + seen.begin, row.below + seen.begin};
   const int length = seen.end - seen.begin;
   // The pattern counts from the row's begin, the masks from the part's.
   const ColumnPattern shifted{pattern.step,
                               (pattern.offset - seen.begin % pattern.step + pattern.step) % pattern.step};
-  if (mark_candidates(part, length, scan, masks.data()))
+  T* contrasts = contrasts_of<T>(w).data();
+  if (mark_candidates(part, length, scan, w.candidate_masks.data(), contrasts))
     for (int word = 0; word < (length + 63) / 64; ++word)
-      for (std::uint64_t bits = masks[static_cast<std::size_t>(word)] & shifted.bits(); bits != 0;
+      for (std::uint64_t bits = w.candidate_masks[static_cast<std::size_t>(word)] & shifted.bits(); bits != 0;
            bits &= bits - 1) {
-        const int x = seen.begin + word * 64 + std::countr_zero(bits);
-        if (x >= span.begin && x < span.end) add(x);
+        const int at = word * 64 + std::countr_zero(bits), x = seen.begin + at;
+        if (x >= span.begin && x < span.end) add(x, contrasts[at]);
       }
-  for (int x = pattern.first_from(right); x < span.end; x += pattern.step) add(x);
+  for (int x = pattern.first_from(right); x < span.end; x += pattern.step) add_at_border(x);
+}
+
+/// The strongest seeds of cells, the first of equals. Their rank is their contrast at first.
+class SeedCells {
+ public:
+  SeedCells(int shift, int width, SeedWorkspace& w) : shift_(shift), w_(w) {
+    w.in_cell.assign(static_cast<std::size_t>((width >> shift) + 1), 0);
+  }
+  void begin_row(int y) {
+    if (y >> shift_ == row_) return;
+    row_ = y >> shift_;
+    std::fill(w_.in_cell.begin(), w_.in_cell.end(), 0U);
+  }
+  void add(const LineSeed& seed) {
+    std::uint32_t& place = w_.in_cell[static_cast<std::size_t>(seed.x >> shift_)];
+    if (place == 0) {
+      w_.found.push_back(seed);
+      place = static_cast<std::uint32_t>(w_.found.size());
+    } else if (w_.found[place - 1].rank < seed.rank) {
+      w_.found[place - 1] = seed;
+    }
+  }
+
+ private:
+  int shift_, row_ = 0;
+  SeedWorkspace& w_;
+};
+
+/// From contrasts to 0..255 of the brightest pixel.
+void rank_by_brightest(double brightest, std::vector<LineSeed>& seeds) {
+  // Without a division a seed.
+  const auto scale = static_cast<std::uint64_t>(255.0 * 65536 / std::max(brightest, 1.0));
+  for (LineSeed& seed : seeds)
+    seed.rank =
+        std::min(static_cast<std::int32_t>((static_cast<std::uint64_t>(seed.rank) * scale) >> 16), 255);
 }
 
 /// A counting sort, which keeps the order of equals.
@@ -149,30 +197,29 @@ void collect_seeds(ImageView<T> image, const SeedRule& rule, SeedWorkspace& w) {
       to_pixel<T>(std::min(rule.level, rule.brightest)), std::max(T{1}, to_pixel<T>(rule.contrast)),
       rule.reach > 0 ? rule.reach : std::max(2, static_cast<int>(std::lround(3.2 * rule.sigma)))};
   const T foreground = to_pixel<T>(rule.foreground);
-  // A rank of 8 bits without a division a pixel.
-  const auto scale = static_cast<std::uint32_t>(255.0 * 65536 / std::max(rule.brightest, 1.0));
   std::vector<T>& zeros = zeros_of<T>(w);
   zeros.assign(static_cast<std::size_t>(image.width), T{});
+  contrasts_of<T>(w).resize(static_cast<std::size_t>(image.width));
   w.candidate_masks.resize(static_cast<std::size_t>((image.width + 63) / 64));
   w.found.clear();
   const int step = rule.step > 0 ? rule.step : row_step(rule.sigma);
   const int shift = rule.binned, half = (1 << shift) >> 1;
+  SeedCells cells(rule.cell_shift, image.width, w);
   for (int y = step / 2, number = 0; y < image.height; y += step, ++number) {
     const ScanRow<T> row{image.row(y), y >= scan.reach ? image.row(y - scan.reach) : zeros.data(),
                          y + scan.reach < image.height ? image.row(y + scan.reach) : zeros.data()};
     const std::uint8_t* where = where_of_row(rule, y);
-    const auto add = [&](int x) {
-      if (where != nullptr && where[(x << shift) + half] < LaserPlace::kFaint) return;
-      const T contrast = candidate_contrast(row, x, image.width, scan.reach);
-      if (contrast < scan.contrast || row.centre[x] < scan.level) return;
-      const auto rank = static_cast<std::int32_t>((static_cast<std::uint64_t>(contrast) * scale) >> 16);
-      w.found.push_back({x, y, std::min(rank, 255), row.centre[x] >= foreground});
+    cells.begin_row(y);
+    const auto add = [&](int x, T contrast) {
+      if (where == nullptr || where[(x << shift) + half] >= LaserPlace::kFaint)
+        cells.add({x, y, contrast, row.centre[x] >= foreground});
     };
     for (const ColumnSpan& span : spans_of_row(rule, y, image.width << shift, w)) {
       const ColumnSpan here{span.begin >> shift, std::min(span.end >> shift, image.width)};
-      candidates_of_span(row, image.width, scan, here, column_pattern(step, number), w.candidate_masks, add);
+      candidates_of_span(row, image.width, scan, here, column_pattern(step, number), w, add);
     }
   }
+  rank_by_brightest(rule.brightest, w.found);
 }
 
 template <class T>

@@ -27,6 +27,7 @@ struct SeedRule {
   double brightest = 1;   ///< the image's largest grey level
   int reach = 0;          ///< px to the surroundings on both sides; 0: as suits `sigma`
   int step = 0;           ///< rows and columns between those that are searched; 0: as suits `sigma`
+  int cell_shift = 0;     ///< only the strongest of each cell of 2^cell_shift rows and columns; 0: all
   const SearchWindows* windows = nullptr;  ///< nothing else is looked at; null: everything
   int binned = 0;  ///< 2^binned pixels of the windows and of `where` are one of the image that is searched
   const std::uint8_t* where = nullptr;  ///< nothing begins where it is LaserPlace::kNone; null: everywhere
@@ -36,9 +37,10 @@ struct SeedRule {
 struct SeedWorkspace {
   std::vector<LineSeed> found, sorted;
   std::vector<std::uint64_t> candidate_masks;
-  std::vector<ColumnSpan> coloured;  ///< of one row
-  std::vector<std::uint8_t> zeros8;
-  std::vector<std::uint16_t> zeros16;
+  std::vector<ColumnSpan> coloured;    ///< of one row
+  std::vector<std::uint32_t> in_cell;  ///< of one row of cells: the place in `found` and one more; 0: none
+  std::vector<std::uint8_t> zeros8, contrasts8;  ///< of one row
+  std::vector<std::uint16_t> zeros16, contrasts16;
 };
 
 /// The candidates of every few rows in `workspace.found`, in reading order.

@@ -114,19 +114,18 @@ void LineFinder<T>::begin() {
                     0);
   following_.mask.reset(search_.image.width, search_.image.height, 1);
   w_.patience.reset(search_.image.width, search_.image.height, search_.tuning);
-  groups_.count = 0;
+  groups_.count = groups_.rejected = 0;
   labels_ = {};
   strongest_ = heaviest_ = 0;
   lines_ = 0;
 }
 
-/// The cell of 4 x 4 pixels of a level.
 template <class T>
 std::uint8_t& LineFinder<T>::tried(int level, int x, int y) {
   const auto k = static_cast<std::size_t>(level);
   const ImageView<T> image = w_.pyramid.levels[k];
-  const int column = std::clamp(x >> (level + 2), 0, image.width / 4),
-            row = std::clamp(y >> (level + 2), 0, image.height / 4);
+  const int column = std::clamp(x >> (level + kTriedCellShift), 0, image.width / 4),
+            row = std::clamp(y >> (level + kTriedCellShift), 0, image.height / 4);
   return w_.tried[k][static_cast<std::size_t>(row) * static_cast<std::size_t>(image.width / 4 + 1) +
                      static_cast<std::size_t>(column)];
 }
@@ -299,6 +298,7 @@ void LineFinder<T>::keep_or_reject(const Followed& line, int seed_level) {
 
 template <class T>
 void LineFinder<T>::reject(const Followed& line, int seed_level) {
+  ++groups_.rejected;
   add_futile(line);
   block(line, search_.tuning.blocked_by_rejected, seed_level);
   take_back(line);
@@ -311,8 +311,8 @@ void LineFinder<T>::block(const Followed& line, double sigmas, int finest_level)
   const auto levels = static_cast<std::uint8_t>(0xFFU << finest_level);
   const ScaleGroup& g = groups_.all[line.group];
   const double reach = sigmas * g.kernels->sigma;
-  const std::size_t step = 2;
-  for (std::size_t i = line.range.begin; i < line.range.end; i += step) {
+  constexpr std::size_t kStep = 2;
+  for (std::size_t i = line.range.begin; i < line.range.end; i += kStep) {
     const StripePoint& p = g.lines.points[i];
     for (double aside = -reach; aside <= reach; aside += 3) {
       const auto x = nearest_pixel(p.x + aside * p.normal_x), y = nearest_pixel(p.y + aside * p.normal_y);
@@ -384,7 +384,7 @@ template <class T>
 void follow_lines_at_own_scale(const OwnScaleSearch<T>& search, const LimitsMaker& limits,
                                KernelCache& kernels, DirectionGuidedWorkspace<T>& following,
                                OwnScaleWorkspace<T>& workspace, ScaleGroups& groups) {
-  groups.count = 0;
+  groups.count = groups.rejected = 0;
   if (search.image.empty() || search.brightest <= 0) return;
   LineFinder<T>(search, limits, kernels, following, workspace, groups).run();
 }

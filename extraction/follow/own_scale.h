@@ -30,6 +30,7 @@ struct ScaleGroup {
 struct ScaleGroups {
   std::vector<ScaleGroup> all;
   std::size_t count = 0;
+  std::size_t rejected = 0;  ///< lines that were followed and are in no group
 
   /// An empty one more.
   ScaleGroup& add(const DerivativeKernels& kernels) {

@@ -29,6 +29,7 @@ void collect_scale_seeds(const ImagePyramid<T>& pyramid, int level, const ScaleS
   of_level.brightest = rule.brightest;
   of_level.reach = kSeedReach;
   of_level.step = level == 0 ? 2 : 1;
+  of_level.cell_shift = kTriedCellShift;
   of_level.windows = rule.windows;
   of_level.binned = level;
   const ImageView<T> image = pyramid.levels[0];

@@ -32,6 +32,9 @@ void collect_scale_seeds(const ImagePyramid<T>& pyramid, int level, const ScaleS
 /// By falling contrast; equals keep their order.
 void sort_by_contrast(const std::vector<ScaleSeed>& found, std::vector<ScaleSeed>& sorted);
 
+/// Of each cell of 4 x 4 px of a level one place is tried.
+inline constexpr int kTriedCellShift = 2;
+
 /// Rungs of the ladder that a seed of one level may belong to: those of its own level and the next ones.
 struct RungRange {
   int first, last;

@@ -17,7 +17,7 @@ namespace {
 /// images.
 template <class T>
 struct DifferenceCounts {
-  static constexpr int kFine = sizeof(T) == 1 ? 1024 : 2048, kCoarse = 64,
+  static constexpr int kFine = sizeof(T) == 1 ? 512 : 2048, kCoarse = 64,
                        kBins = sizeof(T) == 1 ? kFine : 2 * kFine;
   using Table = std::array<std::uint32_t, kBins>;
   /// Two tables, because neighbouring differences are often equal and would wait for each other's increment.

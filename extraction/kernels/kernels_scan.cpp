@@ -37,7 +37,8 @@ T largest(const T* pixels, std::size_t count) {
 }
 
 template <class T>
-bool candidates(const ScanRow<T>& row, int width, const ScanRule<T>& rule, std::uint64_t* masks) {
+bool candidates(const ScanRow<T>& row, int width, const ScanRule<T>& rule, std::uint64_t* masks,
+                T* contrasts) {
   const hn::CappedTag<T, 64> d;
   const auto lanes = static_cast<int>(hn::Lanes(d));
   for (int word = 0; word < (width + 63) / 64; ++word) masks[word] = 0;
@@ -60,11 +61,13 @@ bool candidates(const ScanRow<T>& row, int width, const ScanRule<T>& rule, std::
                                     hn::SaturatedSub(grey, hn::LoadU(d, row.centre + x + rule.reach)));
     const auto across_column = hn::Min(hn::SaturatedSub(grey, hn::LoadU(d, row.above + x)),
                                        hn::SaturatedSub(grey, hn::LoadU(d, row.below + x)));
-    const auto excess = hn::Min(hn::SaturatedSub(hn::Max(across_row, across_column), below_contrast),
+    const auto contrast = hn::Max(across_row, across_column);
+    const auto excess = hn::Min(hn::SaturatedSub(contrast, below_contrast),
                                 rule.level > 0 ? hn::SaturatedSub(grey, below_level) : hn::Set(d, T{1}));
     const auto mask = hn::Ne(excess, zero);
     if (hn::AllFalse(d, mask)) continue;
     any = true;
+    if (contrasts != nullptr) hn::StoreU(contrast, d, contrasts + x);
     std::uint8_t bytes[16] = {};
     hn::StoreMaskBits(d, mask, bytes);
     std::uint64_t bits = 0;
@@ -73,8 +76,10 @@ bool candidates(const ScanRow<T>& row, int width, const ScanRule<T>& rule, std::
     if (x % 64 != 0 && x % 64 + lanes > 64) masks[x / 64 + 1] |= bits >> (64 - x % 64);
   }
   for (; x < last; ++x) {
-    if (row.centre[x] < rule.level || candidate_contrast(row, x, width, rule.reach) < rule.contrast) continue;
+    const T contrast = candidate_contrast(row, x, width, rule.reach);
+    if (row.centre[x] < rule.level || contrast < rule.contrast) continue;
     masks[x / 64] |= std::uint64_t{1} << (x % 64);
+    if (contrasts != nullptr) contrasts[x] = contrast;
     any = true;
   }
   return any;
@@ -112,12 +117,12 @@ void halve16(const std::uint16_t* a, const std::uint16_t* b, std::size_t count, 
 std::uint8_t largest8(const std::uint8_t* pixels, std::size_t count) { return largest(pixels, count); }
 std::uint16_t largest16(const std::uint16_t* pixels, std::size_t count) { return largest(pixels, count); }
 bool candidates8(const ScanRow<std::uint8_t>& row, int width, const ScanRule<std::uint8_t>& rule,
-                 std::uint64_t* masks) {
-  return candidates(row, width, rule, masks);
+                 std::uint64_t* masks, std::uint8_t* contrasts) {
+  return candidates(row, width, rule, masks, contrasts);
 }
 bool candidates16(const ScanRow<std::uint16_t>& row, int width, const ScanRule<std::uint16_t>& rule,
-                  std::uint64_t* masks) {
-  return candidates(row, width, rule, masks);
+                  std::uint64_t* masks, std::uint16_t* contrasts) {
+  return candidates(row, width, rule, masks, contrasts);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -147,12 +152,12 @@ void halve_rows(const std::uint16_t* a, const std::uint16_t* b, std::size_t coun
   HWY_DYNAMIC_DISPATCH(halve16)(a, b, count, out);
 }
 bool mark_candidates(const ScanRow<std::uint8_t>& row, int width, const ScanRule<std::uint8_t>& rule,
-                     std::uint64_t* masks) {
-  return HWY_DYNAMIC_DISPATCH(candidates8)(row, width, rule, masks);
+                     std::uint64_t* masks, std::uint8_t* contrasts) {
+  return HWY_DYNAMIC_DISPATCH(candidates8)(row, width, rule, masks, contrasts);
 }
 bool mark_candidates(const ScanRow<std::uint16_t>& row, int width, const ScanRule<std::uint16_t>& rule,
-                     std::uint64_t* masks) {
-  return HWY_DYNAMIC_DISPATCH(candidates16)(row, width, rule, masks);
+                     std::uint64_t* masks, std::uint16_t* contrasts) {
+  return HWY_DYNAMIC_DISPATCH(candidates16)(row, width, rule, masks, contrasts);
 }
 
 }  // namespace lightstripe

@@ -46,11 +46,12 @@ struct ScanRule {
 };
 
 /// Sets bit x % 64 of masks[x / 64] for each candidate with reach <= x < width - reach, and clears all others
-/// of the (width + 63) / 64 words. True if there is one.
+/// of the (width + 63) / 64 words. True if there is one. `contrasts`, where it is given: `width` pixels,
+/// those of candidates become their contrast, others anything.
 bool mark_candidates(const ScanRow<std::uint8_t>& row, int width, const ScanRule<std::uint8_t>& rule,
-                     std::uint64_t* masks);
+                     std::uint64_t* masks, std::uint8_t* contrasts = nullptr);
 bool mark_candidates(const ScanRow<std::uint16_t>& row, int width, const ScanRule<std::uint16_t>& rule,
-                     std::uint64_t* masks);
+                     std::uint64_t* masks, std::uint16_t* contrasts = nullptr);
 
 /// The contrast of one pixel by that rule (the larger of the two directions, each the smaller of its two
 /// sides); a side beyond the row's ends does not count.

@@ -135,13 +135,17 @@ struct GaussianSums {
   double slope_grey = 0;                     ///< of its first derivative
   double curvature = 0, curvature_grey = 0;  ///< of its second one
 
-  void add(double distance, double sigma2, double gauss, float value) {
-    const double q = (distance * distance / sigma2 - 1) * gauss, v = value;
+  void add(double distance, double per_sigma2, double gauss, float value) {
+    const double q = (distance * distance * per_sigma2 - 1) * gauss, v = value;
     weight += gauss;
     grey += gauss * v;
     slope_grey += distance * gauss * v;
     curvature += q;
     curvature_grey += q * v;
+  }
+  GaussianSums operator+(const GaussianSums& o) const {
+    return {weight + o.weight, grey + o.grey, slope_grey + o.slope_grey, curvature + o.curvature,
+            curvature_grey + o.curvature_grey};
   }
 };
 
@@ -149,19 +153,25 @@ struct GaussianSums {
 double aside_at(std::span<const float> profile, double centre, double sigma) {
   const int reach = static_cast<int>(profile.size() / 2),
             middle = std::clamp(static_cast<int>(centre), -reach, reach);
-  const double sigma2 = sigma * sigma, first = middle - centre;
+  const double sigma2 = sigma * sigma, per_sigma2 = 1 / sigma2, first = middle - centre;
   // From pixel to pixel a Gaussian changes by a factor that itself changes by a constant one.
   const double turn = std::exp(-1 / sigma2), top = std::exp(-0.5 * first * first / sigma2);
-  GaussianSums sums;
-  const auto add_side = [&](int sign, int from) {
-    double gauss = top, factor = std::exp((-sign * first - 0.5) / sigma2);
-    for (int k = 0; std::abs(middle + sign * k) <= reach; ++k, gauss *= factor, factor *= turn)
-      if (k >= from)
-        sums.add(first + sign * k, sigma2, gauss,
-                 profile[static_cast<std::size_t>(middle + sign * k + reach)]);
+  const auto value = [&](int k) { return profile[static_cast<std::size_t>(k + reach)]; };
+  GaussianSums right, left;  // which do not wait for each other
+  double right_gauss = top, right_factor = std::exp((-first - 0.5) / sigma2);
+  double left_gauss = top, left_factor = turn / right_factor;
+  const auto step = [&](double& gauss, double& factor) {
+    gauss *= factor;
+    factor *= turn;
   };
-  add_side(1, 0);
-  add_side(-1, 1);
+  right.add(first, per_sigma2, top, value(middle));
+  for (int k = 1; k <= reach + std::abs(middle); ++k) {
+    step(right_gauss, right_factor);
+    step(left_gauss, left_factor);
+    if (middle + k <= reach) right.add(first + k, per_sigma2, right_gauss, value(middle + k));
+    if (middle - k >= -reach) left.add(first - k, per_sigma2, left_gauss, value(middle - k));
+  }
+  const GaussianSums sums = right + left;
   // The sampled second derivative of a constant must vanish.
   const double second = sums.curvature_grey - sums.curvature * sums.grey / std::max(sums.weight, 1e-9);
   return second < 0 ? -sums.slope_grey / second : 0.0;

@@ -94,15 +94,18 @@ void place_points(ImageView<T> image, const LineSet& lines, const LineRange& ran
   if (!line.known) return;
   // Means along the line, about as long as it is wide.
   const auto reach = static_cast<std::size_t>(std::lround(std::max(1.0, 0.5 * width)));
+  double rise = 0, intensity = 0, known = 0;
+  const auto add = [&](std::size_t k, double sign) {
+    if (std::isnan(w.rises[k])) return;
+    rise += sign * double{w.rises[k]};
+    intensity += sign * double{lines.points[range.begin + k].intensity};
+    known += sign;
+  };
+  std::size_t first = 0, end = 0;
   for (std::size_t i = 0; i < range.size(); ++i) {
-    const std::size_t first = i > reach ? i - reach : 0, end = std::min(range.size(), i + reach + 1);
-    double rise = 0, expected = 0, known = 0;
-    for (std::size_t k = first; k < end; ++k) {
-      if (std::isnan(w.rises[k])) continue;
-      rise += double{w.rises[k]};
-      expected += line.share * double{lines.points[range.begin + k].intensity};
-      known += 1;
-    }
+    for (; end < std::min(range.size(), i + reach + 1); ++end) add(end, 1);
+    for (; first + reach < i; ++first) add(first, -1);
+    const double expected = line.share * intensity;
     if (2 * known > static_cast<double>(end - first) && expected > kClearRise * known &&
         rise < kAstray * expected && rise < kAstray * line.rise * known)
       place[range.begin + i] = LaserPlace::kOtherLight;
