@@ -30,7 +30,7 @@ int run_demo(const std::string& scene_file, bool wheel, const CommonOptions& com
   const std::set<std::string> results = demo_files(scene);
   std::vector<fs::path> outputs;
   for (const std::string& file : results) outputs.push_back(folder / file);
-  guard_outputs({scene_file}, outputs);
+  guard_marked_outputs({scene_file}, outputs);
   OwnFiles own(folder, ".lightstripe-demo");
   own.refuse_foreign(results);
   say(common, fmt::format("1/4 rendering a calibration session and a scan of a {}",

@@ -75,6 +75,16 @@ int unknown_arguments(const CLI::App& app) {
   return lightstripe::kExitUsage;
 }
 
+/// The first option or argument with an empty value, as a shell variable that is not set gives one: taken for
+/// "not given", it would write a default output where another was meant.
+std::string empty_argument(const CLI::App& app) {
+  for (const CLI::App* command : app.get_subcommands())
+    for (const CLI::Option* option : command->get_options())
+      for (const std::string& value : option->results())
+        if (value.empty()) return option->get_name();
+  return "";
+}
+
 int run(int argc, char** argv) {
   CLI::App app{"lightstripe: calibrate laser-stripe rigs, reconstruct profiles, write point clouds",
                "lightstripe"};
@@ -126,6 +136,10 @@ int run(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);
     lightstripe::say_error(in_our_words(error) + "; see " + command_line_help(app));
+    return lightstripe::kExitUsage;
+  }
+  if (const std::string name = empty_argument(app); !name.empty()) {
+    lightstripe::say_error(name + ": is empty; give it a value, or leave it out");
     return lightstripe::kExitUsage;
   }
   return command();

@@ -22,7 +22,7 @@ SimulationSummary simulate_with_progress(const Scene& scene, const std::string& 
   std::vector<std::filesystem::path> outputs;
   for (const std::string& file : session_files())
     outputs.push_back(std::filesystem::path(common.output) / file);
-  guard_outputs({scene_file}, outputs);
+  guard_marked_outputs({scene_file}, outputs);
   const JobThreads threads(common.threads);
   const ProgressCallback draw = progress_line(common.quiet);
   return simulate_scene(scene, common.output, common.threads, [&](int done, int total) {

@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -13,6 +12,7 @@
 
 #include "core/counted.h"
 #include "core/error.h"
+#include "core/linear_algebra.h"
 #include "core/random.h"
 #include "core/robust.h"
 #include "measure/artefact_fit.h"
@@ -177,7 +177,7 @@ Used grouped_by_place(Used used, Points3 places) {
   for (const Vector3d& p : places) mean += p / static_cast<double>(places.size());
   Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
   for (Vector3d& p : places) p -= mean, spread += p * p.transpose();
-  const Vector3d along = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvectors().col(2);
+  const Vector3d along = symmetric_eigen(spread).vectors.col(2);
   std::vector<std::size_t> order(places.size());
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(),

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "measure/artefact_fit.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <array>
+
+#include "core/linear_algebra.h"
 
 namespace lightstripe {
 namespace {
@@ -66,10 +66,9 @@ ParallelFaces fit_parallel_faces(const Points3& first, const Points3& second, bo
   }
   ParallelFaces out;
   if (whole) {
-    out.normal = Eigen::SelfAdjointEigenSolver<Matrix3d>(scatter).eigenvectors().col(0);
+    out.normal = symmetric_eigen(scatter).vectors.col(0);
   } else {
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> in_section(scatter.bottomRightCorner<2, 2>());
-    out.normal << 0, in_section.eigenvectors().col(0);
+    out.normal << 0, symmetric_eigen(scatter.bottomRightCorner<2, 2>()).vectors.col(0);
   }
   for (int f = 0; f < 2; ++f) out.offset[f] = out.normal.dot(means[static_cast<std::size_t>(f)]);
   return out;
@@ -89,7 +88,7 @@ RoundBody fit_round_body(const Points3& points, RoundBody body, bool free_axis) 
     }
     for (int i = 0; i < 6; ++i)
       if (normal(i, i) <= 0) normal(i, i) = 1;  // not an unknown of this body
-    const Row change = normal.ldlt().solve(right);
+    const Row change = solve_symmetric(normal, right);
     if (!change.allFinite()) break;
     move(body, change);
     if (change.norm() < 1e-10 * (1 + body.radius)) break;

@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "measure/closest_points.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
+#include "core/linear_algebra.h"
 #include "core/robust.h"
 
 namespace lightstripe {
@@ -76,11 +76,11 @@ double apply_step(const NormalEquations& equations, bool upright, SectionPose& p
     H.row(0).setZero(), H.col(0).setZero();
     g(0) = 0;
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(H);
+  const SymmetricEigen eigen = symmetric_eigen(H);
   Vector3d change = Vector3d::Zero();
   for (int i = 0; i < 3; ++i)
-    if (eigen.eigenvalues()(i) > kHeld * eigen.eigenvalues()(2) && eigen.eigenvalues()(i) > 0)
-      change -= eigen.eigenvectors().col(i) * (eigen.eigenvectors().col(i).dot(g) / eigen.eigenvalues()(i));
+    if (eigen.values(i) > kHeld * eigen.values(2) && eigen.values(i) > 0)
+      change -= eigen.vectors.col(i) * (eigen.vectors.col(i).dot(g) / eigen.values(i));
   const double angle = change(0) / kArmMm;
   pose.move.translation = Eigen::Rotation2Dd(angle) * pose.move.translation + change.tail<2>();
   pose.move.angle_rad += angle;

@@ -2,11 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "measure/error_along.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <numeric>
+
+#include "core/linear_algebra.h"
 
 namespace lightstripe {
 namespace {
@@ -54,7 +55,7 @@ double share_in_pose(const ErrorAlong& error, const Section& section, const std:
     normal += point.weight * g * g.transpose(), weights += point.weight;
   }
   const Eigen::Matrix3d unit = gradient_covariance({0, 1, error.length_mm}, section, points);
-  const double share = normal.ldlt().solve(unit).trace() / weights;
+  const double share = solve_symmetric(normal, unit).trace() / weights;
   return std::isfinite(share) ? std::clamp(share, 0.0, kMostLost) : kMostLost;
 }
 

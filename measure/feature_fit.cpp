@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "measure/feature_fit.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
+#include "core/linear_algebra.h"
 #include "core/robust.h"
 #include "measure/robust_line.h"
 
@@ -80,8 +80,7 @@ Line weighted_line(const FeaturePoints& points, const std::vector<double>& weigh
     const Vector2d arm = points[i].position - middle;
     spread += weights[i] * arm * arm.transpose();
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(spread);
-  Vector2d along = solver.eigenvectors().col(1);
+  Vector2d along = symmetric_eigen(spread).vectors.col(1);
   if (along.x() < 0 || (along.x() == 0 && along.y() < 0)) along = -along;
   return {middle, along};
 }
@@ -103,9 +102,9 @@ bool kasa(const FeaturePoints& points, const Vector2d& middle, Vector3d& circle)
     H += row * row.transpose();
     g += row * q.squaredNorm();
   }
-  const Eigen::FullPivLU<Matrix3d> lu(H);
-  if (!lu.isInvertible() || !(lu.rcond() > 1e-12)) return false;
-  const Vector3d c = lu.solve(g);
+  const auto inverse = inverse_of(H, 1e-12);
+  if (!inverse) return false;
+  const Vector3d c = *inverse * g;
   circle = {c.x() / 2, c.y() / 2, std::sqrt(std::max(0.0, c.z() + (c.x() * c.x() + c.y() * c.y()) / 4))};
   return circle.z() > 0;
 }
@@ -191,7 +190,7 @@ ShapeFit fit_arc(const FeaturePoints& points) {
     const std::vector<double> residuals = circle_residuals(points, middle, circle);
     if (round >= 2) weights = tukey_weights(residuals);
     const Matrix3d H = circle_normal_matrix(points, middle, circle, weights, residuals, gradient);
-    const Vector3d step = H.fullPivLu().solve(gradient);
+    const Vector3d step = solve_least_squares(H, gradient);
     if (!step.allFinite()) return unknown("its points are no arc");
     circle -= step;
     if (round > kRounds && step.norm() < 1e-10) break;
@@ -201,11 +200,10 @@ ShapeFit fit_arc(const FeaturePoints& points) {
   ShapeFit out;
   out.kind = ShapeFit::Kind::kArc;
   const double variance = describe(points, residuals, weights, 3, out);
-  const Eigen::FullPivLU<Matrix3d> lu(
-      circle_normal_matrix(points, middle, circle, weights, residuals, gradient));
-  if (variance < 0 || !lu.isInvertible()) return unknown("its points are no arc");
+  const auto inverse = inverse_of(circle_normal_matrix(points, middle, circle, weights, residuals, gradient));
+  if (variance < 0 || !inverse) return unknown("its points are no arc");
   out.parameters = Vector3d(circle.x() + middle.x(), circle.y() + middle.y(), circle.z());
-  out.covariance = variance * lu.inverse();
+  out.covariance = variance * *inverse;
   out.reason.clear();
   return out;
 }

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The lightstripe authors
 // SPDX-License-Identifier: Apache-2.0
 // What is measured over the whole scan.
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "core/linear_algebra.h"
 #include "measure/features.h"
 
 namespace lightstripe {
@@ -35,7 +35,7 @@ Estimate spread_about_model(const Samples& samples) {
     b(i) = samples.values[k];
     variance += samples.sigmas[k] * samples.sigmas[k] / static_cast<double>(n);
   }
-  const Eigen::VectorXd residuals = b - A * A.completeOrthogonalDecomposition().solve(b);
+  const Eigen::VectorXd residuals = b - A * solve_least_squares(A, b);
   return Estimate::known(residuals.maxCoeff() - residuals.minCoeff(), std::sqrt(2 * variance));
 }
 

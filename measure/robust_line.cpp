@@ -3,11 +3,11 @@
 #include "measure/robust_line.h"
 
 #include <Eigen/Core>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
 #include "core/error.h"
+#include "core/linear_algebra.h"
 #include "core/robust.h"
 
 namespace lightstripe {
@@ -48,9 +48,9 @@ std::optional<Weighted> solve(const std::vector<Sample1>& samples, const std::ve
     H += weights[i] * row * row.transpose();
     g += weights[i] * samples[i].value * row;
   }
-  const Eigen::FullPivLU<MatrixXd> lu(H);
-  if (!lu.isInvertible() || !(lu.rcond() > kDetermined)) return std::nullopt;
-  return Weighted{lu.solve(g), lu.inverse()};
+  const auto inverse = inverse_of(H, kDetermined);
+  if (!inverse) return std::nullopt;
+  return Weighted{*inverse * g, *inverse};
 }
 
 /// Robust scale of residuals of a fit of so many parameters: the median would let few points agree by chance

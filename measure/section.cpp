@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "measure/section.h"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
+#include "core/linear_algebra.h"
 #include "core/robust.h"
 
 namespace lightstripe {
@@ -99,8 +99,7 @@ bool sections_are_radial(const std::vector<Profile>& profiles) {
     squares(i) = point.position.squaredNorm() - point.v * point.v - point.u * point.u;
   }
   // u = d.p - c along the axis direction d; with q = p - a off the axis, |p|^2 - v^2 - u^2 is linear in p.
-  const auto solver = A.completeOrthogonalDecomposition();
-  const Eigen::VectorXd along = solver.solve(u), off = solver.solve(squares);
+  const Eigen::VectorXd along = solve_least_squares(A, u), off = solve_least_squares(A, squares);
   const double scale = std::sqrt(A.leftCols<3>().rowwise().squaredNorm().maxCoeff());
   return std::abs(along.head<3>().norm() - 1) < 1e-3 && (A * along - u).cwiseAbs().maxCoeff() < kRoundingMm &&
          (A * off - squares).cwiseAbs().maxCoeff() < kRoundingMm * 4 * scale;

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "truth/section_alignment.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -10,6 +9,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "core/linear_algebra.h"
 #include "core/polyline_search.h"
 #include "core/robust.h"
 
@@ -57,13 +57,12 @@ Step alignment_step(std::span<const Vector2d> measured, const Feet& feet, const 
     H += weight * J * J.transpose();
     g += weight * feet[i]->signed_distance * J;
   }
-  const Eigen::SelfAdjointEigenSolver<Matrix3d> eigen(H);  // ascending
-  const double floor = kHeld * eigen.eigenvalues().z();
-  Step step{Vector3d::Zero(), eigen.eigenvalues().x() > floor};
+  const SymmetricEigen eigen = symmetric_eigen(H);
+  const double floor = kHeld * eigen.values.z();
+  Step step{Vector3d::Zero(), eigen.values.x() > floor};
   for (int i = 0; i < 3; ++i)
-    if (eigen.eigenvalues()(i) > floor)
-      step.change -=
-          eigen.eigenvectors().col(i) * (eigen.eigenvectors().col(i).dot(g) / eigen.eigenvalues()(i));
+    if (eigen.values(i) > floor)
+      step.change -= eigen.vectors.col(i) * (eigen.vectors.col(i).dot(g) / eigen.values(i));
   return step;
 }
 

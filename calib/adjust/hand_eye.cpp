@@ -9,8 +9,6 @@
 #include <ceres/solver.h>
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -21,6 +19,7 @@
 #include "calib/adjust/rig_state.h"
 #include "calib/adjust/tool_pose_error.h"
 #include "core/counted.h"
+#include "core/linear_algebra.h"
 #include "core/robust.h"
 
 namespace lightstripe {
@@ -135,8 +134,8 @@ void refuse_standing_tool(const std::vector<ToolView>& views) {
         fmt::format("motion: the tool's poses do not move: they turn by {:.2f} degrees at most; give each "
                     "picture its own pose (base_from_tool), turned by 20 to 60 degrees about different axes",
                     largest / kDegree));
-  const Eigen::SelfAdjointEigenSolver<Matrix3d> eigen(axes);
-  if (eigen.eigenvalues()[1] < 0.01 * eigen.eigenvalues()[2])
+  const Eigen::VectorXd spread = symmetric_eigen(axes).values;
+  if (spread[1] < 0.01 * spread[2])
     throw NotUsable(
         "motion: the tool turns about one axis only, which leaves its distance to the rig along "
         "that axis open; turn it about a second axis as well");

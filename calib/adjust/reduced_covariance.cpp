@@ -4,10 +4,10 @@
 
 #include <ceres/crs_matrix.h>
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <Eigen/SparseCore>
 #include <limits>
+
+#include "core/linear_algebra.h"
 
 namespace lightstripe {
 namespace {
@@ -36,20 +36,20 @@ ReducedCovariance reduced_covariance(JointProblem& joint) {
   for (Eigen::Index pose = n; pose < H.cols(); pose += 6) {
     const Eigen::MatrixXd coupling = Eigen::MatrixXd(H.block(0, pose, n, 6));
     const Eigen::MatrixXd own = Eigen::MatrixXd(H.block(pose, pose, 6, 6));
-    S -= coupling * own.ldlt().solve(coupling.transpose());
+    S -= coupling * solve_symmetric(own, coupling.transpose());
   }
   ReducedCovariance result;
   result.condition = std::numeric_limits<double>::infinity();
   if (!(S.diagonal().minCoeff() > 0)) return result;
   const Eigen::VectorXd scale = S.diagonal().cwiseSqrt().cwiseInverse();
   const Eigen::MatrixXd scaled = scale.asDiagonal() * S * scale.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scaled);
-  const auto& lambda = eigen.eigenvalues();  // ascending
+  const SymmetricEigen eigen = symmetric_eigen(scaled);
+  const auto& lambda = eigen.values;
   if (!(lambda[0] > 0)) return result;
   result.condition = lambda[n - 1] / lambda[0];
   if (result.condition > kMaxCondition) return result;
   const Eigen::MatrixXd inverse =
-      eigen.eigenvectors() * lambda.cwiseInverse().asDiagonal() * eigen.eigenvectors().transpose();
+      eigen.vectors * lambda.cwiseInverse().asDiagonal() * eigen.vectors.transpose();
   result.covariance = scale.asDiagonal() * inverse * scale.asDiagonal();
   return result;
 }

@@ -4,10 +4,10 @@
 
 #include <ceres/crs_matrix.h>
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
+#include "core/linear_algebra.h"
 #include "core/robust.h"
 
 namespace lightstripe {
@@ -36,7 +36,7 @@ ToolResidual seen_beside(ceres::Problem& problem, std::size_t index, ceres::Resi
   problem.Evaluate(options, nullptr, &residuals, nullptr, &crs);
   const Eigen::Map<const RowMajor6> J(crs.values.data(), crs.num_rows, 6);  // one block: its rows are full
   const Eigen::Matrix<double, 6, 6> of_tool = J.bottomRows<6>(), normal = J.transpose() * J;
-  const Eigen::Matrix<double, 6, 6> taken = of_tool * normal.ldlt().solve(of_tool.transpose());
+  const Eigen::Matrix<double, 6, 6> taken = of_tool * solve_symmetric(normal, of_tool.transpose());
   Vector6d error = Eigen::Map<const Vector6d>(residuals.data() + residuals.size() - 6);
   error.head<3>() *= spread.rotation;
   error.tail<3>() *= spread.translation;

@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The lightstripe authors
 // SPDX-License-Identifier: Apache-2.0
 #include "core/section_bends.h"
+#include "core/linear_algebra.h"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -32,12 +31,6 @@ MatrixXd basis_of(const SectionBends& bends, const VectorXd& section,
       basis(row, column + t) = basis(row + 1, column + kTerms + t) = terms[static_cast<std::size_t>(t)];
   }
   return basis;
-}
-
-/// M with M M^T = the covariance; what rounding has made negative counts as 0.
-MatrixXd root_of(const MatrixXd& covariance) {
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(covariance);
-  return eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal();
 }
 
 std::vector<double> rounded(const VectorXd& coefficients) {
@@ -111,19 +104,19 @@ SectionBends section_bends(const SectionErrors& errors, const MatrixXd& covarian
   int sensors = 0;
   for (const SectionSample& sample : errors.samples) sensors = std::max(sensors, sample.sensor + 1);
   const MatrixXd displacements = without(freedom == SectionFreedom::kRigid ? kAll : kShiftAlong,
-                                         errors.section, errors.jacobian * root_of(covariance));
+                                         errors.section, errors.jacobian * symmetric_root(covariance));
   const MatrixXd basis = basis_of(out, errors.section, errors.samples, sensors);
-  const MatrixXd coefficients = basis.completeOrthogonalDecomposition().solve(displacements);
+  const MatrixXd coefficients = solve_least_squares(basis, displacements);
   const std::vector<MatrixXd> looks = looks_at(errors, basis * coefficients, sensors, freedom);
   if (looks.empty()) return out;
   // Any turn of independent errors of one sigma are such errors: the one in which the first of them are seen
   // most.
   MatrixXd sum = looks.front();
   for (std::size_t i = 1; i < looks.size(); ++i) sum += looks[i];
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(sum);
+  const SymmetricEigen eigen = symmetric_eigen(sum);
   for (Index left = sum.cols(); left > 0; --left) {
-    if (all_see_little(looks, eigen.eigenvectors().leftCols(left), kLeft)) break;
-    out.bends.push_back(rounded(coefficients * eigen.eigenvectors().col(left - 1)));
+    if (all_see_little(looks, eigen.vectors.leftCols(left), kLeft)) break;
+    out.bends.push_back(rounded(coefficients * eigen.vectors.col(left - 1)));
   }
   return out;
 }

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
-#include <Eigen/QR>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,6 +13,7 @@
 #include <utility>
 
 #include "calib/adjust/rig_frame.h"
+#include "core/linear_algebra.h"
 
 namespace lightstripe {
 namespace {
@@ -222,7 +222,7 @@ MatrixXd rigid_motions(const VectorXd& section) {
     const Eigen::Vector2d p = points.col(i) - mean;
     rigid.middleRows<2>(2 * i) << 1, 0, -p.y(), 0, 1, p.x();
   }
-  return rigid.householderQr().householderQ() * MatrixXd::Identity(2 * n, 3);
+  return orthonormal_basis(rigid);
 }
 
 MatrixXd without_rigid_motion(const VectorXd& section) {

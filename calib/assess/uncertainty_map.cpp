@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: 2026 The lightstripe authors
 // SPDX-License-Identifier: Apache-2.0
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -8,6 +7,7 @@
 #include "calib/assess/board_spread.h"
 #include "calib/assess/diagnosis.h"
 #include "calib/assess/uncertainty.h"
+#include "core/linear_algebra.h"
 
 namespace lightstripe {
 namespace {
@@ -74,7 +74,7 @@ MatrixXd after_rigid_move(const std::vector<UncertaintyCell>& cells, const Matri
     rigid.middleRows<2>(2 * i) << 1, 0, -cell.section_mm.y(), 0, 1, cell.section_mm.x();
     if (!cell.extrapolated) fitted.middleRows<2>(2 * i) = rigid.middleRows<2>(2 * i);
   }
-  return J - rigid * fitted.colPivHouseholderQr().solve(J);
+  return J - rigid * solve_least_squares(fitted, J);
 }
 
 }  // namespace

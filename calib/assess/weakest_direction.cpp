@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,6 +10,7 @@
 #include "calib/adjust/rig_frame.h"
 #include "calib/assess/board_spread.h"
 #include "calib/assess/diagnosis.h"
+#include "core/linear_algebra.h"
 
 namespace lightstripe {
 namespace {
@@ -105,10 +104,9 @@ std::string weakest_direction(const SessionViews& session, const JointAdjustment
                               const std::vector<BoardSpread>& spreads, const SectionErrors& errors,
                               const Eigen::Vector3d& up) {
   if (!errors.known()) return {};
-  const MatrixXd L = adjustment.covariance.llt().matrixL();
-  const MatrixXd A = errors.jacobian * L;
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(A.transpose() * A);
-  const VectorXd displacement = A * eigen.eigenvectors().rightCols<1>();
+  const MatrixXd A = errors.jacobian * symmetric_root(adjustment.covariance);
+  const SymmetricEigen eigen = symmetric_eigen(A.transpose() * A);
+  const VectorXd displacement = A * eigen.vectors.rightCols<1>();
   const Rigid3 rig = rig_from_first(adjustment.state, session.motion, up);
   const Vector2d towards = (rig.rotation * Eigen::Vector3d::UnitZ()).tail<2>();
   const Vector2d range = towards.norm() > 0.1 ? Vector2d(towards.normalized()) : Vector2d::UnitY();

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "calib/board/board_homography.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
-#include <Eigen/SVD>
 #include <cmath>
+
+#include "core/linear_algebra.h"
 
 namespace lightstripe {
 namespace {
@@ -40,10 +40,10 @@ std::optional<Matrix3d> find_homography(std::span<const Vector2d> from, std::spa
     y << 0, 0, 0, p.transpose(), -q.y() * p.transpose();
     normal += x.transpose() * x + y.transpose() * y;
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 9, 9>> solver(normal);
+  const SymmetricEigen eigen = symmetric_eigen(normal);
   constexpr double kOneLine = 1e-12;  // of the largest eigenvalue: a second solution fits as well
-  if (!(solver.eigenvalues()[1] > kOneLine * solver.eigenvalues()[8])) return std::nullopt;
-  const Eigen::Matrix<double, 9, 1> h = solver.eigenvectors().col(0);
+  if (!(eigen.values[1] > kOneLine * eigen.values[8])) return std::nullopt;
+  const Eigen::Matrix<double, 9, 1> h = eigen.vectors.col(0);
   Matrix3d H;
   H << h.segment<3>(0).transpose(), h.segment<3>(3).transpose(), h.segment<3>(6).transpose();
   H = scale_to.inverse() * H * scale_from;
@@ -57,11 +57,8 @@ Rigid3 pose_from_homography(const Matrix3d& rays_from_board, const Eigen::Vector
   if (H.row(2).dot(seen.homogeneous()) < 0) H = -H;
   Matrix3d axes;
   axes << H.col(0), H.col(1), H.col(0).cross(H.col(1));
-  const Eigen::JacobiSVD<Matrix3d> svd(axes, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  Matrix3d rotation = svd.matrixU() * svd.matrixV().transpose();
-  if (rotation.determinant() < 0) rotation.col(2) = -rotation.col(2);
   Rigid3 pose;
-  pose.rotation = Eigen::Quaterniond(rotation).normalized();
+  pose.rotation = Eigen::Quaterniond(nearest_rotation(axes)).normalized();
   pose.translation = H.col(2);
   return pose;
 }

@@ -3,12 +3,12 @@
 #include "calib/board/board_map.h"
 
 #include <Eigen/Geometry>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
 #include "calib/board/board_homography.h"
 #include "calib/board/seen_corners.h"
+#include "core/linear_algebra.h"
 
 namespace lightstripe {
 namespace {
@@ -37,7 +37,7 @@ void fit_remainder(BoardMap& map, const SeenCorners& seen) {
       A.row(k) = monomials((pixel(k) - map.centre) / map.scale_px).head(terms).transpose();
       b.row(k) = (corner(k) - map(pixel(k))).transpose();
     }
-    map.remainder.leftCols(terms) = A.colPivHouseholderQr().solve(b).transpose();
+    map.remainder.leftCols(terms) = solve_least_squares(A, b).transpose();
   }
   double sum = 0;
   for (Eigen::Index k = 0; k < n; ++k) sum += (corner(k) - map(pixel(k))).squaredNorm();

@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -16,6 +15,7 @@
 #include "calib/board/seen_corners.h"
 #include "core/counted.h"
 #include "core/error.h"
+#include "core/linear_algebra.h"
 
 namespace lightstripe {
 namespace {
@@ -32,8 +32,7 @@ bool on_one_line(const std::vector<Vector2d>& corners, const Target& target) {
   for (const Vector2d& p : seen) mean += p / count;
   Eigen::Matrix2d scatter = Eigen::Matrix2d::Zero();
   for (const Vector2d& p : seen) scatter += (p - mean) * (p - mean).transpose() / count;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(scatter);
-  return eigen.eigenvalues()[0] <
+  return symmetric_eigen(scatter).values[0] <
          0.05 * std::min(target.pitch_x, target.pitch_y) * std::min(target.pitch_x, target.pitch_y);
 }
 

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "calib/board/laser_look.h"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,6 +10,7 @@
 #include "calib/board/board_edges.h"
 #include "calib/board/board_map.h"
 #include "calib/observations.h"
+#include "core/linear_algebra.h"
 
 namespace lightstripe {
 namespace {
@@ -32,7 +32,7 @@ std::optional<LevelMap> fit_levels(const std::vector<Vector2d>& places, const st
     b(i) = levels[static_cast<std::size_t>(i)];
   }
   LevelMap map;
-  map.terms = A.colPivHouseholderQr().solve(b);
+  map.terms = solve_least_squares(A, b);
   return map;
 }
 

@@ -3,10 +3,10 @@
 #include "calib/board/straight_lines.h"
 
 #include <Eigen/Core>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
+#include "core/linear_algebra.h"
 #include "core/random.h"
 
 namespace lightstripe {
@@ -31,7 +31,7 @@ Line fitted(const std::vector<StripePoint>& points, const std::vector<std::size_
     const Vector2d d = Vector2d(points[i].x, points[i].y) - mean;
     scatter += d * d.transpose();
   }
-  return {mean, Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(scatter).eigenvectors().col(0)};
+  return {mean, symmetric_eigen(scatter).vectors.col(0)};
 }
 
 std::vector<std::size_t> within(const std::vector<StripePoint>& points, const Line& line) {

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -18,6 +17,7 @@
 #include "calib/start/stripe_planes.h"
 #include "core/counted.h"
 #include "core/error.h"
+#include "core/linear_algebra.h"
 #include "core/random.h"
 #include "core/robust.h"
 #include "extraction/extract_stripes.h"
@@ -100,8 +100,7 @@ Line fitted(const std::vector<Placed>& points, const std::vector<std::size_t>& c
   for (const auto i : chosen) mean += points[i].p_board / static_cast<double>(chosen.size());
   Eigen::Matrix2d scatter = Eigen::Matrix2d::Zero();
   for (const auto i : chosen) scatter += (points[i].p_board - mean) * (points[i].p_board - mean).transpose();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(scatter);
-  return {mean, eigen.eigenvectors().col(0)};
+  return {mean, symmetric_eigen(scatter).vectors.col(0)};
 }
 
 std::vector<std::size_t> within(const std::vector<Placed>& points, const Line& line, double tolerance_px) {

@@ -16,6 +16,7 @@
 #include "calib/start/initial_values.h"
 #include "calib/start/refine_views.h"
 #include "core/counted.h"
+#include "core/linear_algebra.h"
 
 namespace lightstripe {
 namespace {
@@ -110,7 +111,7 @@ Camera focal_start(const std::vector<Eigen::Matrix3d>& homographies, const std::
       b -= row * (first.z() * second.z());
     }
   }
-  const Eigen::Vector2d inverse_squares = A.fullPivLu().solve(b);
+  const Eigen::Vector2d inverse_squares = solve_least_squares(A, b);
   camera.fx = std::sqrt(std::abs(1 / inverse_squares.x()));
   camera.fy = std::sqrt(std::abs(1 / inverse_squares.y()));
   return camera;

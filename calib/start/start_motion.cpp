@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -11,6 +10,7 @@
 #include "calib/adjust/session_views.h"
 #include "calib/start/initial_values.h"
 #include "core/counted.h"
+#include "core/linear_algebra.h"
 
 namespace lightstripe {
 namespace {
@@ -117,7 +117,7 @@ MotionState fit_axis(const Track& track) {
   b(A.rows() - 1) = axis.dot(first.translation);
   MotionState motion;
   motion.direction = axis;
-  motion.axis_point = A.colPivHouseholderQr().solve(b);
+  motion.axis_point = solve_least_squares(A, b);
   const Eigen::Quaterniond back(Eigen::AngleAxisd(-track.travel.front(), axis));
   motion.first_from_board = {(back * first.rotation).normalized(),
                              motion.axis_point + back * (first.translation - motion.axis_point)};

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The lightstripe authors
 // SPDX-License-Identifier: Apache-2.0
 #include "core/plane.h"
+#include "core/linear_algebra.h"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 
 #include "core/error.h"
@@ -44,10 +44,10 @@ PlaneFit fit_plane(std::span<const Eigen::Vector3d> points) {
   Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
   for (const auto& p : points) scatter += (p - mean) * (p - mean).transpose();
   scatter /= static_cast<double>(points.size());
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(scatter);  // ascending eigenvalues
+  const SymmetricEigen eigen = symmetric_eigen(scatter);
   PlaneFit fit;
-  fit.spread = eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt().reverse();
-  const Eigen::Vector3d normal = eigen.eigenvectors().col(0);
+  fit.spread = eigen.values.cwiseMax(0.0).cwiseSqrt().reverse();
+  const Eigen::Vector3d normal = eigen.vectors.col(0);
   fit.plane = canonical({normal, normal.dot(mean)});
   fit.rms = fit.spread.z();
   return fit;

@@ -6,8 +6,12 @@
 #include <sys/stat.h>
 
 #include <algorithm>
+#include <array>
+#include <fstream>
 #include <map>
 #include <optional>
+#include <string>
+#include <string_view>
 #include <system_error>
 #include <utility>
 #include <variant>
@@ -45,9 +49,28 @@ void add_pattern(const fs::path& folder, const std::string& pattern, std::vector
   }
 }
 
+/// Sessions, scans, features and limits are written by people: a YAML file that does not begin as this
+/// program begins its own (rigs, run records, cameras) is such a one.
+bool is_hand_written(const fs::path& path) {
+  constexpr std::size_t kLooked = 4096;
+  constexpr std::array<std::string_view, 5> kOwn{"format:", "lightstripe:", "%YAML",
+                                                 "image_width:", "# Made by"};
+  std::string end = path.extension().string();
+  std::error_code none;
+  if ((end != ".yaml" && end != ".yml") || !fs::is_regular_file(path, none)) return false;
+  std::string head(kLooked, '\0');
+  std::ifstream in(path, std::ios::binary);
+  in.read(head.data(), static_cast<std::streamsize>(head.size()));
+  head.resize(static_cast<std::size_t>(in.gcount()));
+  if (head.empty()) return false;
+  return std::none_of(kOwn.begin(), kOwn.end(), [&](std::string_view begin) {
+    return head.starts_with(begin) || head.find("\n" + std::string(begin)) != std::string::npos;
+  });
+}
+
 }  // namespace
 
-void guard_outputs(const std::vector<fs::path>& inputs, const std::vector<fs::path>& outputs) {
+void guard_marked_outputs(const std::vector<fs::path>& inputs, const std::vector<fs::path>& outputs) {
   std::map<Identity, fs::path> read, written;
   for (const fs::path& input : inputs)
     if (!input.empty())
@@ -64,6 +87,14 @@ void guard_outputs(const std::vector<fs::path>& inputs, const std::vector<fs::pa
       throw Error(output.string(), fmt::format("is another output as well ({})", found->second.string()),
                   "give every output a name of its own");
   }
+}
+
+void guard_outputs(const std::vector<fs::path>& inputs, const std::vector<fs::path>& outputs) {
+  guard_marked_outputs(inputs, outputs);
+  for (const fs::path& output : outputs)
+    if (is_hand_written(output))
+      throw Error(output.string(), "is a YAML file that lightstripe did not write, and would be lost",
+                  "name another output, or delete it first");
 }
 
 std::vector<fs::path> files_of(const Session& session) {
