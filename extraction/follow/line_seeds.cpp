@@ -117,9 +117,12 @@ ColumnSpan with_surroundings(const ColumnSpan& span, int reach, int width) {
 template <class T, class Add>
 void candidates_of_span(const ScanRow<T>& row, int width, const ScanRule<T>& scan, const ColumnSpan& span,
                         const ColumnPattern& pattern, SeedWorkspace& w, const Add& add) {
+  const T least = std::max(scan.level, scan.contrast);
   const auto add_at_border = [&](int x) {
+    // Nothing stands out by more than it has.
+    if (row.centre[x] < least) return;
     const T contrast = candidate_contrast(row, x, width, scan.reach);
-    if (contrast >= scan.contrast && row.centre[x] >= scan.level) add(x, contrast);
+    if (contrast >= scan.contrast) add(x, contrast);
   };
   const int left = std::min(std::min(scan.reach, width), span.end),
             right = std::max(std::max(width - scan.reach, std::min(scan.reach, width)), span.begin);

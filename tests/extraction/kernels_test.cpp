@@ -177,6 +177,15 @@ void check_candidates(int width, int reach) {
     EXPECT_EQ(mark_candidates(row, width, rule, vectors.data()),
               mark_candidates_scalar(row, width, rule, scalar.data()));
     EXPECT_EQ(vectors, scalar) << "width " << width << " reach " << reach << " level " << level;
+    std::vector<T> contrasts(static_cast<std::size_t>(width));
+    mark_candidates(row, width, rule, vectors.data(), contrasts.data());
+    EXPECT_EQ(vectors, scalar);
+    for (int x = 0; x < width; ++x) {
+      const auto at = static_cast<std::size_t>(x);
+      if ((scalar[at / 64] >> (at % 64) & 1U) != 0) {
+        EXPECT_EQ(contrasts[at], candidate_contrast(row, x, width, reach)) << x << " of " << width;
+      }
+    }
   }
 }
 

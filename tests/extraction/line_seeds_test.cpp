@@ -4,7 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
 
 namespace lightstripe {
 namespace {
@@ -41,6 +44,21 @@ TEST(LineSeeds, TheBrightLineComesFirstAndAllLieOnALine) {
     const auto &a = workspace.sorted[i - 1], &b = workspace.sorted[i];
     EXPECT_TRUE(a.foreground > b.foreground || (a.foreground == b.foreground && a.rank >= b.rank));
   }
+}
+
+TEST(LineSeeds, OfEachCellOnlyTheStrongestIsLeft) {
+  SeedWorkspace all, strongest;
+  SeedRule of_cells = rule();
+  of_cells.cell_shift = 2;
+  collect_seeds(two_stripes().view(), rule(), all);
+  collect_seeds(two_stripes().view(), of_cells, strongest);
+  std::map<std::pair<int, int>, int> ranks;
+  for (const LineSeed& seed : all.found) {
+    int& rank = ranks[{seed.x / 4, seed.y / 4}];
+    rank = std::max(rank, seed.rank);
+  }
+  EXPECT_EQ(strongest.found.size(), ranks.size());
+  for (const LineSeed& seed : strongest.found) EXPECT_EQ(seed.rank, (ranks[{seed.x / 4, seed.y / 4}]));
 }
 
 TEST(LineSeeds, NoneInAnEvenImageOrOnAnEdge) {
