@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 namespace lightstripe {
 namespace {
@@ -13,6 +15,15 @@ bool is_deviation(const std::string& name) { return name == "radial_deviation" |
 void add_bend(const ConicityRow& bent, ConicityRow& row) {
   if (!bent.tan_gamma_e || !row.tan_gamma_e || !row.sigma) return;
   row.sigma = std::hypot(*row.sigma, *bent.tan_gamma_e - *row.tan_gamma_e);
+}
+
+/// False where it cannot be told.
+bool borrow(const std::optional<double>& plain, const std::optional<double>& with,
+            std::optional<double>& sigma) {
+  if (!sigma) return true;
+  if (!plain || !with) return false;
+  sigma = std::sqrt(*sigma * *sigma + std::max(0.0, *with * *with - *plain * *plain));
+  return true;
 }
 
 }  // namespace
@@ -44,6 +55,21 @@ void add_bends(const std::vector<MeasuredFrame>& bent_rows, MeasuredFrame& row) 
 void add_bends(const std::vector<MeasuredFeatures>& bent_rows, MeasuredFeatures& row) {
   for (const MeasuredFeatures& bent : bent_rows)
     for (std::size_t i = 0; i < row.quantities.size(); ++i) add_bend(bent.quantities[i], row.quantities[i]);
+}
+
+bool borrow_bends(const MeasuredFrame& plain, const MeasuredFrame& neighbour, MeasuredFrame& row) {
+  MeasuredFrame out = row;
+  for (auto of : {&MeasuredFrame::estimates, &MeasuredFrame::extras})
+    for (std::size_t i = 0; i < (out.*of).size(); ++i)
+      if (!borrow((plain.*of)[i].estimate.sigma, (neighbour.*of)[i].estimate.sigma,
+                  (out.*of)[i].estimate.sigma))
+        return false;
+  for (std::size_t i = 0; i < out.conicity.size(); ++i)
+    if (i >= plain.conicity.size() ||
+        !borrow(plain.conicity[i].sigma, neighbour.conicity[i].sigma, out.conicity[i].sigma))
+      return false;
+  row = std::move(out);
+  return true;
 }
 
 bool shows_anything(const MeasuredFrame& row) {

@@ -26,6 +26,11 @@ void add_bend(const Estimate& bent, Estimate& estimate);
 void add_bends(const std::vector<MeasuredFrame>& bent_rows, MeasuredFrame& row);
 void add_bends(const std::vector<MeasuredFeatures>& bent_rows, MeasuredFeatures& row);
 
+/// Adds to the sigmas of `row` what the bends do to a section like it, `neighbour`, which was measured
+/// `plain` and with them. False, and the row is as it was, where the neighbour does not know a sigma that the
+/// row has.
+bool borrow_bends(const MeasuredFrame& plain, const MeasuredFrame& neighbour, MeasuredFrame& row);
+
 /// Whether a row has values that bends could change.
 bool shows_anything(const MeasuredFrame& row);
 bool shows_anything(const MeasuredFeatures& row);

@@ -43,6 +43,9 @@ class MeasureReferences {
 
   MeasuredFrame measure(const Profile& profile, const MeasureInput& input,
                         const MeasureOptions& options) const;
+  /// As if the calibration were without error.
+  MeasuredFrame measure_plain(const Profile& profile, const MeasureInput& input,
+                              const MeasureOptions& options) const;
   /// Columns behind `status`.
   std::vector<std::string> extra_columns() const;
 

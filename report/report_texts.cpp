@@ -4,6 +4,7 @@
 
 #include "core/error.h"
 
+// NOLINTBEGIN(bugprone-macro-parentheses): `name` is the variable's.
 // The assembler takes the files in as they stand: a megabyte of JavaScript is too long for a string literal.
 #define LIGHTSTRIPE_EMBED(name, path)                                    \
   asm(".section .rodata\n.global " #name "\n" #name ":\n.incbin \"" path \
@@ -11,6 +12,7 @@
       ".global " #name "_end\n" #name "_end:\n.byte 0\n.previous\n");    \
   extern "C" const char name[];                                          \
   extern "C" const char name##_end[]
+// NOLINTEND(bugprone-macro-parentheses)
 
 // Made by report/CMakeLists.txt: one LIGHTSTRIPE_EMBED a file, and the table LIGHTSTRIPE_EMBEDDED of them.
 #include "report/embedded_pages.h"

@@ -15,6 +15,7 @@
 #include "calib/board/observe_board.h"
 #include "calib/board/other_board.h"
 #include "calib/board/search_size.h"
+#include "calib/observations.h"
 #include "core/error.h"
 
 namespace lightstripe {
@@ -134,6 +135,31 @@ Corners refined(const cv::Mat& gray, const Corners& corners, const Target& targe
   return result;
 }
 
+/// Where the refined place is far from the located one, something else pulled it there, like a laser line
+/// over the corner: what such corners hold is where they were located.
+struct RefinedCorners {
+  Corners places;
+  Corners pulled;  ///< those of `places` that are located only
+};
+
+RefinedCorners refine(const cv::Mat& gray, const Corners& located, const Target& target) {
+  constexpr double kFar = 0.1;  // of the step to the next corner
+  RefinedCorners result{refined(gray, located, target), {}};
+  for (std::size_t i = 0; i < located.size(); ++i) {
+    if ((result.places[i] - located[i]).norm() < kFar * distance_to_next(located, i, target.columns))
+      continue;
+    result.places[i] = located[i];
+    result.pulled.push_back(located[i]);
+  }
+  return result;
+}
+
+/// A place that is located only is no measurement.
+void forget(const Corners& pulled, Corners& corners) {
+  for (auto& corner : corners)
+    if (std::find(pulled.begin(), pulled.end(), corner) != pulled.end()) corner = unseen_corner();
+}
+
 double signed_area(const Corners& corners, const Target& target) {
   const Vector2d x = corners[static_cast<std::size_t>(target.columns - 1)] - corners.front();
   const Vector2d y =
@@ -244,10 +270,11 @@ BoardDetection detect_checkerboard(const cv::Mat& gray, const Target& target) {
   const Located located = locate(gray, factor, target);
   BoardDetection result;
   if (located.corners) {
-    const Corners corners = refined(gray, *located.corners, target);
-    result.found = in_view(gray, corners) && misfit_of(corners, target) < kMaxMisfit &&
-                   has_squares_beyond(gray, corners, target);
+    const auto [corners, pulled] = refine(gray, *located.corners, target);
+    result.found = 10 * pulled.size() <= corners.size() && in_view(gray, corners) &&
+                   misfit_of(corners, target) < kMaxMisfit && has_squares_beyond(gray, corners, target);
     if (result.found) result.corners = in_unique_order(gray, corners, target);
+    forget(pulled, result.corners);
   }
   if (result.found) return result;
   result.reason = why_not_found(shrunk(gray, factor), target, located.grids);

@@ -32,7 +32,7 @@ struct PixelPlaces {
                   static_cast<std::size_t>(x)];
   }
   bool is_on_board(int x, int y) const { return !std::isnan((*this)(x, y).x()); }
-  /// Largest change of either coordinate (squares) by a step of one pixel across its lines.
+  /// How fast either coordinate changes (squares / px).
   Vector2f slopes(int x, int y) const {
     const auto step = [&](int dx, int dy) -> Vector2f {
       const bool forward = x + dx < width && y + dy < height && is_on_board(x + dx, y + dy);
@@ -50,7 +50,8 @@ struct SquareGrid {
   int columns, rows;           ///< of squares with the ring
   Vector2d low, high;          ///< limits of pattern and rim, squares
   std::vector<double> levels;  ///< median grey level; NaN where it is not known
-  int column(double u) const { return static_cast<int>(std::floor(u)) + 2; }
+  /// Column of a place's x, row of its y.
+  static int cell(double place) { return static_cast<int>(std::floor(place)) + 2; }
   std::size_t index(int column, int row) const {
     return static_cast<std::size_t>(std::clamp(row, 0, rows - 1)) * static_cast<std::size_t>(columns) +
            static_cast<std::size_t>(std::clamp(column, 0, columns - 1));
@@ -101,7 +102,7 @@ void measure_levels(ImageView8 image, const PixelPlaces& places, SquareGrid& gri
       if (!places.is_on_board(x, y)) continue;
       const Vector2f p = places(x, y), in_square = p - p.array().floor().matrix();
       if (in_square.minCoeff() < kClear || in_square.maxCoeff() > 1 - kClear) continue;
-      pixels[grid.index(grid.column(p.x()), grid.column(p.y()))].push_back(image(x, y));
+      pixels[grid.index(SquareGrid::cell(p.x()), SquareGrid::cell(p.y()))].push_back(image(x, y));
     }
   }
   grid.levels.clear();
@@ -124,7 +125,7 @@ double predicted_level(const PixelPlaces& places, const SquareGrid& grid, int x,
     return share_beyond((place - std::round(place)) / std::max(1e-6, slope * blur_px));
   };
   const double u = beyond(p.x(), slopes.x()), v = beyond(p.y(), slopes.y());
-  const int column = grid.column(std::round(p.x())), row = grid.column(std::round(p.y()));
+  const int column = SquareGrid::cell(std::round(p.x())), row = SquareGrid::cell(std::round(p.y()));
   double sum = 0;
   const auto add = [&](int c, int r, double weight) {
     if (weight > 0) sum += weight * grid.levels[grid.index(c, r)];

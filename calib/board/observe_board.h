@@ -29,7 +29,8 @@ struct BoardDetection {
 /// The board's corners to a few hundredths of a pixel: located by linking saddle points to grids, or where
 /// that fails by cv::findChessboardCornersSB; refined by cv::cornerSubPix. The order is made unique: x cross
 /// y points into the board, and the square between the first four corners is dark where the target's colours
-/// can tell (columns + rows odd). Thread-safe.
+/// can tell (columns + rows odd). A corner that the refinement leads far astray, as a laser line over it
+/// does, is unseen. Thread-safe.
 BoardDetection detect_board(ImageView8 image, const Target& target);
 
 /// The first of several renderings of one picture that shows the board; of a colour picture with a laser line

@@ -65,6 +65,34 @@ TEST(DetectBoard, KeepsARightHandedOrderOfASymmetricBoard) {
   }
 }
 
+TEST(DetectBoard, TellsWhichCornersTheLaserHasPulledAway) {
+  // A bright line almost along a row of corners: what it pulls by more than a tenth of a square is unseen,
+  // the others stay right.
+  const Rigid3 pose = board_pose(kBoard, {0, 0, 520}, 10, -15, 5);
+  const Eigen::Vector3d from = pose * Eigen::Vector3d(0, 28.5, 0), to = pose * Eigen::Vector3d(100, 32, 0);
+  const Eigen::Vector3d across = (to - from).cross(pose.rotation * Eigen::Vector3d(0, 0.3, 1)).normalized();
+  const std::vector<Plane> laser{{across, across.dot(from)}};
+  const BoardLook look{.dark = 15,
+                       .light = 100,
+                       .background = 5,
+                       .laser_peak = 500,
+                       .laser_sigma_mm = 0.6,
+                       .laser_dark_albedo = 0.1};
+  const auto found = detect_board(render_board(kCamera, kBoard, pose, look, 1, laser).view(), kBoard);
+  ASSERT_TRUE(found.found) << found.reason;
+  const auto truth = true_corners(kCamera, kBoard, pose);
+  int unseen = 0;
+  double largest = 0;
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    const bool seen = found.corners[i].allFinite();
+    unseen += !seen;
+    if (seen) largest = std::max(largest, (found.corners[i] - truth[i]).norm());
+  }
+  EXPECT_GE(unseen, 1);
+  EXPECT_LE(unseen, 8);
+  EXPECT_LT(largest, 2.5);  // a square is 21 px
+}
+
 TEST(DetectBoard, FindsTheBoardBesideAnotherPattern) {
   // A darker board of 9 x 6 corners below; the two nearly touch.
   const Target other{TargetType::kCheckerboard, 9, 6, 8, 8};

@@ -69,6 +69,20 @@ TEST(SectionBends, EachErrorIsMeasuredOnceMoreWhereThereIsSomethingToSee) {
   EXPECT_EQ(measured, 1);
 }
 
+TEST(SectionBends, AreBorrowedFromANeighbourThatKnowsAllThatTheRowKnows) {
+  const MeasuredFrame plain = row_of(1, 0.3, 5);
+  MeasuredFrame neighbour = row_of(1, 0.5, 5), row = row_of(2, 0.1, 5);
+  ASSERT_TRUE(borrow_bends(plain, neighbour, row));
+  EXPECT_NEAR(*row.estimates[0].estimate.sigma, std::hypot(0.1, 0.4), 1e-12);
+  EXPECT_NEAR(*row.extras[0].estimate.sigma, 0.1, 1e-12) << "nothing was added to the neighbour's";
+  neighbour.extras[0].estimate = Estimate::unknown("not seen");
+  MeasuredFrame other = row_of(2, 0.1, 5);
+  EXPECT_FALSE(borrow_bends(plain, neighbour, other));
+  EXPECT_EQ(*other.estimates[0].estimate.sigma, 0.1);
+  other.extras[0].estimate = Estimate::unknown("not seen");
+  EXPECT_TRUE(borrow_bends(plain, neighbour, other)) << "what the row does not know it need not borrow";
+}
+
 TEST(SectionBends, MoveEachSensorsPointsInTheSection) {
   Profile profile;
   profile.points.resize(2);
