@@ -10,11 +10,10 @@ namespace lightstripe {
 namespace {
 
 void append_cell(std::string& out, std::string_view cell, bool quoted) {
-  if (quoted) {
-    out.append("\"").append(cell).append("\"");
-  } else if (cell.find('.') != std::string_view::npos && parse_number(cell)) {
+  const bool is_fraction = !quoted && cell.find('.') != std::string_view::npos && parse_number(cell);
+  if (is_fraction) {
     for (const char c : cell) out += c == '.' ? ',' : c;
-  } else if (cell.find(';') != std::string_view::npos) {
+  } else if (quoted || cell.find(';') != std::string_view::npos) {
     out.append("\"").append(cell).append("\"");
   } else {
     out.append(cell);
