@@ -32,8 +32,8 @@ else()
   set(precompile_by_default OFF)
 endif()
 option(LIGHTSTRIPE_PRECOMPILE "precompile the headers of others" ${precompile_by_default})
-if(LIGHTSTRIPE_PRECOMPILE)
-  # What g++ 12 wrongly finds in std::string is not known as a system header's any more.
+if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
+  # What g++ 12 wrongly finds in std::string and std::vector, with precompiled headers and (fewer) without.
   target_compile_options(lightstripe_flags INTERFACE -Wno-array-bounds -Wno-stringop-overread -Wno-stringop-overflow)
 endif()
 set(lightstripe_precompiled <algorithm> <cmath> <filesystem> <functional> <map> <memory> <optional> <string> <vector>
