@@ -16,7 +16,7 @@ namespace {
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 using RowMajor6 = Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor>;
 
-constexpr double kLeastRotation = 1e-6, kLeastTranslation_mm = 1e-3;  // no controller is better
+constexpr double kLeastRotation = 1e-6, kLeastTranslationMm = 1e-3;  // no controller is better
 constexpr double kLeastRedundancy = 0.05;
 
 /// The tool's six residuals beside one board, and what its pose takes of them.
@@ -79,7 +79,7 @@ ToolSpread estimated_spread(const std::vector<ToolResidual>& residuals, const To
                             bool robust) {
   if (residuals.empty()) return so_far;
   return {std::max(kLeastRotation, spread_of(residuals, 0, robust, so_far.rotation)),
-          std::max(kLeastTranslation_mm, spread_of(residuals, 3, robust, so_far.translation))};
+          std::max(kLeastTranslationMm, spread_of(residuals, 3, robust, so_far.translation))};
 }
 
 bool contradicts(const ToolResidual& residual, const ToolSpread& spread, double limit) {
