@@ -101,7 +101,8 @@ void measure_levels(ImageView8 image, const PixelPlaces& places, SquareGrid& gri
   for (int y = 0; y < image.height; ++y) {
     for (int x = 0; x < image.width; ++x) {
       if (!places.is_on_board(x, y)) continue;
-      const Vector2f p = places(x, y), in_square = p - p.array().floor().matrix();
+      const Vector2f& p = places(x, y);
+      const Vector2f in_square = p - p.array().floor().matrix();
       if (in_square.minCoeff() < kClear || in_square.maxCoeff() > 1 - kClear) continue;
       pixels[grid.index(SquareGrid::cell(p.x()), SquareGrid::cell(p.y()))].push_back(image(x, y));
     }
@@ -121,7 +122,8 @@ double share_beyond(double distance) {
 
 /// Grey level of the print under a blur (Gaussian, sigma in px); NaN where a square's level is not known.
 double predicted_level(const PixelPlaces& places, const SquareGrid& grid, int x, int y, double blur_px) {
-  const Vector2f p = places(x, y), slopes = places.slopes(x, y);
+  const Vector2f& p = places(x, y);
+  const Vector2f slopes = places.slopes(x, y);
   const auto beyond = [&](float place, float slope) {
     return share_beyond((place - std::round(place)) / std::max(1e-6, slope * blur_px));
   };
@@ -148,7 +150,8 @@ double fit_blur(ImageView8 image, const PixelPlaces& places, const SquareGrid& g
     for (int y = 0; y < image.height; y += kStride) {
       for (int x = 0; x < image.width; x += kStride) {
         if (!places.is_on_board(x, y)) continue;
-        const Vector2f p = places(x, y), to_edge = (p - p.array().round().matrix()).cwiseAbs();
+        const Vector2f& p = places(x, y);
+        const Vector2f to_edge = (p - p.array().round().matrix()).cwiseAbs();
         if ((to_edge.array() > kNearPx * places.slopes(x, y).array()).all()) continue;
         const double rest = std::abs(image(x, y) - predicted_level(places, grid, x, y, blur));
         if (rest >= 0) sum += rest;
