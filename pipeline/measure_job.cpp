@@ -145,7 +145,9 @@ void measure_rows(const MeasureJob& job, MeasureResult& result, StepCounter& ste
   constexpr std::size_t kMostWithErrors = 200;
   const std::vector<Profile>& profiles = result.input.profiles;
   const MeasureReferences& references = result.references;
-  const std::size_t block = (profiles.size() + kMostWithErrors - 1) / kMostWithErrors;
+  // Without errors to count there is nothing to take over: every section is measured once.
+  const std::size_t block =
+      result.calibration.counted() ? (profiles.size() + kMostWithErrors - 1) / kMostWithErrors : 1;
   parallel_for((profiles.size() + block - 1) / block, [&](std::size_t b) {
     const std::size_t first = b * block, last = std::min(profiles.size(), first + block);
     const std::size_t middle = (first + last) / 2;

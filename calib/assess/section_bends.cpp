@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The lightstripe authors
 // SPDX-License-Identifier: Apache-2.0
 #include "core/section_bends.h"
-#include "core/linear_algebra.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +9,7 @@
 #include <vector>
 
 #include "calib/assess/uncertainty.h"
+#include "core/linear_algebra.h"
 
 namespace lightstripe {
 namespace {

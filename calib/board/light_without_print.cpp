@@ -21,7 +21,7 @@ using Eigen::Vector2d;
 using Eigen::Vector2f;
 
 constexpr double kMinSquarePx = 6;
-constexpr double kOutside = std::numeric_limits<float>::quiet_NaN();
+constexpr float kOutside = std::numeric_limits<float>::quiet_NaN();
 
 /// Where each pixel lies on the board, in squares from the first corner; NaN beside the board and its rim.
 struct PixelPlaces {
@@ -74,7 +74,7 @@ PixelPlaces places_of(ImageView8 image, const BoardMap& map, const Target& targe
   constexpr double kSlack = 0.5;  // squares; what a lens may add to the homography
   PixelPlaces result{image.width, image.height, {}};
   result.places.assign(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height),
-                       Vector2f::Constant(static_cast<float>(kOutside)));
+                       Vector2f::Constant(kOutside));
   const Vector2d pitch(target.pitch_x, target.pitch_y);
   const auto within = [&](const Vector2d& p, double slack) {
     return ((p - grid.low).array() > -slack).all() && ((grid.high - p).array() > -slack).all();
@@ -172,8 +172,9 @@ std::vector<float> rest_of(ImageView8 image, const PixelPlaces& places, const Sq
   rest.reserve(places.places.size());
   for (int y = 0; y < image.height; ++y)
     for (int x = 0; x < image.width; ++x)
-      rest.push_back(static_cast<float>(
-          places.is_on_board(x, y) ? image(x, y) - predicted_level(places, grid, x, y, blur_px) : kOutside));
+      rest.push_back(places.is_on_board(x, y)
+                         ? static_cast<float>(image(x, y) - predicted_level(places, grid, x, y, blur_px))
+                         : kOutside);
   return rest;
 }
 

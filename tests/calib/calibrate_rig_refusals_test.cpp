@@ -12,6 +12,7 @@ namespace lightstripe {
 namespace {
 
 using Eigen::Vector3d;
+using testing::calibrate_with_warp;
 using ::testing::HasSubstr;
 using testing::kDegree;
 using testing::noisy;
@@ -20,12 +21,6 @@ using testing::observe;
 using testing::perfect;
 using testing::rail_rig;
 using testing::SyntheticRig;
-
-CalibrationResult calibrate_with_warp(const CalibrationObservations& observations) {
-  CalibrationOptions options;
-  options.board_warp = true;
-  return calibrate_rig(observations, options);
-}
 
 /// Expects a refusal whose sentence holds `text`.
 void expect_refusal(const CalibrationObservations& observations, const std::string& text) {

@@ -19,6 +19,7 @@ namespace lightstripe {
 namespace {
 
 using Eigen::Vector3d;
+using testing::calibrate_with_warp;
 using ::testing::HasSubstr;
 using testing::kDegree;
 using testing::noisy;
@@ -37,12 +38,6 @@ CalibrationOptions true_lens() {
   return options;
 }
 const CalibrationOptions kTrueLens = true_lens();
-
-CalibrationResult calibrate_with_warp(const CalibrationObservations& observations) {
-  CalibrationOptions options;
-  options.board_warp = true;
-  return calibrate_rig(observations, options);
-}
 
 double plane_error_deg(const Plane& a, const Plane& b) {
   return std::asin(a.normal.cross(b.normal).norm()) / kDegree;

@@ -12,6 +12,7 @@
 
 #include "calib/adjust/board_surface.h"
 #include "calib/adjust/rig_state.h"
+#include "calib/calibrate_rig.h"
 #include "calib/observations.h"
 #include "core/random.h"
 
@@ -86,6 +87,12 @@ inline SessionOptions noisy(int poses = 20, std::uint64_t seed = 0) {
   options.poses = poses;
   options.seed = seed;
   return options;
+}
+
+inline CalibrationResult calibrate_with_warp(const CalibrationObservations& observations) {
+  CalibrationOptions options;
+  options.board_warp = true;
+  return calibrate_rig(observations, options);
 }
 
 /// Faces the middle between the sensors, then tilted, turned and shifted at random.
