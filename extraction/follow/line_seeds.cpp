@@ -153,9 +153,13 @@ class SeedCells {
   void begin_row(int y) {
     if (y >> shift_ == row_) return;
     row_ = y >> shift_;
-    std::fill(w_.in_cell.begin(), w_.in_cell.end(), 0U);
+    // Most rows hold nothing that would have to be cleared.
+    if (is_used_) std::fill(w_.in_cell.begin(), w_.in_cell.end(), 0U);
+    is_used_ = false;
   }
   void add(const LineSeed& seed) {
+    if (shift_ == 0) return w_.found.push_back(seed);  // no pixel is met twice
+    is_used_ = true;
     std::uint32_t& place = w_.in_cell[static_cast<std::size_t>(seed.x >> shift_)];
     if (place == 0) {
       w_.found.push_back(seed);
@@ -167,6 +171,7 @@ class SeedCells {
 
  private:
   int shift_, row_ = 0;
+  bool is_used_ = false;  ///< some cell of the row holds a seed
   SeedWorkspace& w_;
 };
 

@@ -19,8 +19,9 @@ template <class T>
 struct DifferenceCounts {
   static constexpr int kFine = sizeof(T) == 1 ? 512 : 2048, kCoarse = 64,
                        kBins = sizeof(T) == 1 ? kFine : 2 * kFine;
-  using Table = std::array<std::uint32_t, kBins>;
-  /// Two tables, because neighbouring differences are often equal and would wait for each other's increment.
+  using Table = std::array<std::uint32_t, kBins + 1>;
+  /// Two tables, because neighbouring differences are often equal and would wait for each other's increment;
+  /// each begins with the triples that have a clipped pixel.
   Table even{}, odd{};
   std::uint64_t total = 0;    ///< triples without a clipped pixel
   std::uint64_t clipped = 0;  ///< triples with one
@@ -37,19 +38,27 @@ struct DifferenceCounts {
 
 template <class T>
 void count_differences(const T* pixels, int length, DifferenceCounts<T>& c) {
-  const auto count = [&](int x, auto& table) {
-    const int left = pixels[x - 1], centre = pixels[x], right = pixels[x + 1];
-    const bool clipped = left == 0 || centre == 0 || right == 0;
-    c.clipped += clipped ? 1U : 0U;
-    table[static_cast<std::size_t>(DifferenceCounts<T>::bin(std::abs(left - 2 * centre + right)))] +=
-        clipped ? 0U : 1U;
-  };
-  int x = 1;
-  for (; x + 2 < length; x += 2) {
-    count(x, c.even);
-    count(x + 1, c.odd);
+  constexpr int kChunk = 32;
+  std::array<std::int32_t, kChunk> differences{};
+  for (int first = 1; first + 1 < length; first += kChunk) {
+    const int count = std::min(kChunk, length - 1 - first);
+    const T* at = pixels + first;
+    int clipped = 0;
+    // Plain enough for the compiler to make vectors of it.
+    for (int k = 0; k < count; ++k) {
+      const int left = at[k - 1], centre = at[k], right = at[k + 1];
+      const int dark =
+          static_cast<int>(left == 0) | static_cast<int>(centre == 0) | static_cast<int>(right == 0);
+      differences[static_cast<std::size_t>(k)] = dark != 0 ? -1 : std::abs(left - 2 * centre + right);
+      clipped += dark;
+    }
+    c.clipped += static_cast<std::uint64_t>(clipped);
+    for (int k = 0; k < count; ++k) {
+      const int difference = differences[static_cast<std::size_t>(k)];
+      auto& table = k % 2 == 0 ? c.even : c.odd;
+      ++table[static_cast<std::size_t>(1 + DifferenceCounts<T>::bin(difference))];
+    }
   }
-  if (x + 1 < length) count(x, c.even);
   if (length > 2) c.total += static_cast<std::uint64_t>(length - 2);
 }
 
@@ -58,7 +67,7 @@ double median_difference(const DifferenceCounts<T>& c) {
   const double half = 0.5 * static_cast<double>(c.total);
   double below = 0;
   for (int bin = 0; bin < DifferenceCounts<T>::kBins; ++bin) {
-    const auto k = static_cast<std::size_t>(bin);
+    const auto k = static_cast<std::size_t>(bin + 1);
     const double count = c.even[k] + c.odd[k];
     if (count > 0 && below + count >= half) {
       const double begin = DifferenceCounts<T>::begin(bin), end = DifferenceCounts<T>::begin(bin + 1);
