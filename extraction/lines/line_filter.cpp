@@ -159,7 +159,7 @@ void mend_or_cut(Trial& t, LineSet& lines, const LineRange& whole) {
   const auto margin = static_cast<std::size_t>(std::lround(t.kernels.sigma));
   const auto least_run = static_cast<std::size_t>(std::lround(1.5 * t.full_width));
   find_bad_stretches(t, lines, r, least_run, t.w.stretches);
-  const double width = median_width(t, lines, r);
+  const double width = t.w.stretches.empty() ? 0 : median_width(t, lines, r);
   std::size_t begin = r.begin;
   for (const BadStretch& bad : t.w.stretches) {
     const bool other_light = is_other_light(t, bad);
