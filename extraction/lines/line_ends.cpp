@@ -2,91 +2,149 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "extraction/lines/line_ends.h"
 
+#include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <optional>
+#include <limits>
+#include <numbers>
 #include <span>
+#include <vector>
 
-#include "core/robust.h"
+#include "extraction/lines/light_end.h"
+#include "extraction/lines/local_fit.h"
 
 namespace lightstripe {
 namespace {
 
-/// Strength, as a share of that further in, from which on a point of a square end is as good as any.
-constexpr double kWhole = 0.9;
-/// 1-sigma shift of the centre at an end, px: a stripe cut off at 45 degrees is off by this where half the
-/// strength is left, a square end by 0.15 px.
-constexpr double kEndShift = 1.2;
-/// In sigma; an oblique cut of 45 degrees draws the end of its line 0.8 sigma aside.
-constexpr double kObliqueReach = 1.25;
+/// z of the light's end inside of which points are as good as any: an oblique cut draws them aside by less
+/// than a tenth of what it does to the last one.
+constexpr double kWhole = 2.2;
+/// Tangent of the angle by which a stripe is cut off obliquely, 1 sigma, before the points have told it.
+constexpr double kUsualCut = 1;
+/// Of the shift that the cut explains: its error.
+constexpr double kShiftError = 0.25;
+/// Line that is looked at, in spreads of the end beyond the disturbed points.
+constexpr double kNarrow = 4, kWide = 8;
+/// Mean square of the misfits over the points' own: a parabola over the wide stretch that is worse is not
+/// used.
+constexpr double kMostMisfit = 1.5;
 
 /// One line seen from one of its ends.
 struct EndView {
   std::span<StripePoint> points;
+  std::span<float> systematic;  ///< LineSet::systematic, of these points; empty: not known
   bool from_back;
 
   std::size_t size() const { return points.size(); }
+  /// The points before `first` have an error of their own now; what fades there fades as at `first`.
+  void continue_systematic(std::size_t first) const {
+    if (systematic.empty()) return;
+    const auto at = [&](std::size_t i) { return from_back ? systematic.size() - 1 - i : i; };
+    for (std::size_t i = 0; i < first; ++i) systematic[at(i)] = first < size() ? systematic[at(first)] : 0.0F;
+  }
   StripePoint& operator[](std::size_t i) const { return points[from_back ? points.size() - 1 - i : i]; }
 };
 
-struct Continuation {
-  double x = 0, y = 0;                ///< px
-  double normal_x = 0, normal_y = 0;  ///< unit, on the side of the points' own normals
-  double sigma = 0;                   ///< px
-};
-
-/// What is known of a line further in than an end disturbs it.
-struct Inside {
-  std::span<const LocalFitPoint> places;  ///< from the end on
-  double sigma_px = 0;                    ///< of each
-  double shared = 1;                      ///< points that share their noise
-  std::size_t narrow = 0, wide = 0;       ///< reaches of the two parabolas
-};
-
-/// The parabolas through the points from `first_good` on, read at `i` before them. The wider one is the
-/// surer, as long as the line is one: what both disagree by is added to its error.
-Continuation continue_line(const Inside& inside, std::size_t i, std::size_t first_good,
-                           const StripePoint& at) {
-  LocalFitter fitter(inside.places);
-  LocalFitPoint near, far;
-  Continuation c;
-  for (const bool wide : {false, true}) {
-    const std::size_t reach = wide ? inside.wide : inside.narrow;
-    const LocalFit fit = fitter.at(first_good + reach, reach);
-    const double offset = static_cast<double>(i) - static_cast<double>(first_good + reach);
-    (wide ? far : near) = {fit.x + offset * (fit.slope_x + 0.5 * offset * fit.second_x),
-                           fit.y + offset * (fit.slope_y + 0.5 * offset * fit.second_y)};
-    const double tangent_x = fit.slope_x + offset * fit.second_x,
-                 tangent_y = fit.slope_y + offset * fit.second_y;
-    const double sign = tangent_x * at.normal_y - tangent_y * at.normal_x > 0 ? 1.0 : -1.0;
-    const double scale = sign / std::max(std::hypot(tangent_x, tangent_y), 1e-9);
-    c = {far.x, far.y, -tangent_y * scale, tangent_x * scale,
-         inside.sigma_px * std::sqrt(inside.shared * local_fit_variance(reach, offset))};
+/// Strengths from the end on, one in a quarter of `spread`.
+std::array<double, kEndSamples> strengths_of(const EndView& end, double spread, double step) {
+  std::array<double, kEndSamples> strengths{};
+  for (std::size_t k = 0; k < kEndSamples; ++k) {
+    const double place = static_cast<double>(k) * spread / (static_cast<double>(kEndSamplesPerSigma) * step);
+    strengths.at(k) = end[std::min(static_cast<std::size_t>(std::lround(place)), end.size() - 1)].strength;
   }
-  const double disagreement = (near.x - far.x) * c.normal_x + (near.y - far.y) * c.normal_y;
-  c.sigma = std::hypot(c.sigma, 0.5 * disagreement);
-  return c;
+  return strengths;
 }
 
-/// From a point to the continuation, along its normal, px.
-double distance_across(const Continuation& c, const StripePoint& p) {
-  return (c.x - p.x) * c.normal_x + (c.y - p.y) * c.normal_y;
+/// The end for which the strengths speak. An oblique cut makes them fall more slowly.
+LightEnd find_light_end(const EndView& end, double sigma, double width, double step) {
+  LightEnd light{sigma, std::clamp(width / (2 * std::numbers::sqrt3), 0.3, 1.5 * sigma)};
+  const double square = light.width * light.width, share = square / (square + sigma * sigma);
+  double least = std::numeric_limits<double>::infinity();
+  for (const double tangent : {0.5, 1.0, 2.0}) {
+    const double spread = sigma * std::sqrt(1 + tangent * tangent * share);
+    const EndOfStrength fit = fit_light_end(strengths_of(end, spread, step));
+    if (fit.misfit >= 0.8 * least) continue;
+    least = fit.misfit;
+    light.spread = spread;
+    light.inside = fit.inside;
+  }
+  return light;
 }
 
-double median_strength(const EndView& end, std::size_t first, std::size_t count) {
-  double strengths[24];
-  const std::size_t step = 1 + count / 24;
-  std::size_t used = 0;
-  for (std::size_t i = first; i < first + count && used < 24; i += step) strengths[used++] = end[i].strength;
-  return upper_median(std::span(strengths, used));
+/// One of the points that tell how the line goes on.
+struct EndPoint {
+  double u = 0, across = 0;  ///< along the line from the first whole point on, in spreads; px across
+  double shift = 0;          ///< px, by a cut at 45 degrees
+  double scatter = 0;        ///< px, 1 sigma
+};
+
+/// The line as a parabola, and the tangent of the cut: a + b u + c u^2 + t shift.
+struct EndFit {
+  Eigen::Vector4d value = Eigen::Vector4d::Zero();
+  Eigen::Matrix4d covariance = Eigen::Matrix4d::Zero();
+  double misfit = 0;  ///< mean square over the expected one
+};
+
+/// `shared`: points that share their noise. The second pass knows how far the shifts may be wrong.
+EndFit fit_end(std::span<const EndPoint> points, double shared) {
+  EndFit fit;
+  for (int pass = 0; pass < 2; ++pass) {
+    Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();
+    normal(3, 3) = 1 / (kUsualCut * kUsualCut);
+    Eigen::Vector4d right = Eigen::Vector4d::Zero();
+    double squares = 0;
+    for (const EndPoint& p : points) {
+      const Eigen::Vector4d row(1, p.u, p.u * p.u, p.shift);
+      const double wrong = kShiftError * fit.value[3] * p.shift;
+      const double variance = p.scatter * p.scatter + wrong * wrong, weight = 1 / (variance * shared);
+      const double rest = p.across - row.dot(fit.value);
+      squares += rest * rest / variance;
+      normal += weight * row * row.transpose();
+      right += weight * p.across * row;
+    }
+    fit.misfit = squares / static_cast<double>(points.size());  // of the first pass' line, at the end
+    fit.covariance = normal.inverse();
+    fit.value = fit.covariance * right;
+  }
+  return fit;
 }
 
-/// The first point from the end on that is as strong as those further in; nothing where that takes more than
-/// an end does.
-std::optional<std::size_t> first_whole_point(const EndView& end, double whole, std::size_t most) {
-  for (std::size_t i = 0; i <= most; ++i)
-    if (end[i].strength >= whole) return i;
-  return std::nullopt;
+double across_at(const EndFit& fit, double u) { return fit.value[0] + u * (fit.value[1] + u * fit.value[2]); }
+
+double sigma_at(const EndFit& fit, double u) {
+  const Eigen::Vector3d row(1, u, u * u);
+  return std::sqrt(row.dot(fit.covariance.topLeftCorner<3, 3>() * row));
+}
+
+/// A direction in the picture, unit.
+struct Direction {
+  double x = 1, y = 0;
+};
+
+/// Moves the first `disturbed` points onto the line that all points together tell.
+void move_points(const EndView& end, std::size_t disturbed, std::span<const EndPoint> points,
+                 const LightEnd& light, double shared, Direction along) {
+  const auto narrow_count =
+      static_cast<std::size_t>(static_cast<double>(points.size() - disturbed) * kNarrow / kWide);
+  const EndFit narrow = fit_end(points.first(disturbed + narrow_count), shared),
+               wide = fit_end(points, shared);
+  const EndFit& line = wide.misfit < kMostMisfit ? wide : narrow;
+  const double side = end[disturbed].normal_y * along.x - end[disturbed].normal_x * along.y > 0 ? 1.0 : -1.0;
+  for (std::size_t i = 0; i < disturbed; ++i) {
+    StripePoint& p = end[i];
+    const double u = points[i].u, by = across_at(line, u) - points[i].across;
+    p.x -= by * along.y;
+    p.y += by * along.x;
+    const double doubt = 0.5 * (across_at(narrow, u) - across_at(wide, u));
+    // The shifts of all points are wrong together, which a fit of independent errors does not know.
+    const double wrong = 0.5 * kShiftError * line.value[3] * points[i].shift;
+    p.sigma_px = std::hypot(sigma_at(line, u), doubt, wrong);
+    const double slope = (line.value[1] + 2 * u * line.value[2]) / light.spread;
+    const double scale = side / std::sqrt(1 + slope * slope);
+    p.normal_x = scale * (-along.y - slope * along.x);
+    p.normal_y = scale * (along.x - slope * along.y);
+  }
 }
 
 bool is_joined(const EndView& end, std::size_t count) {
@@ -94,52 +152,59 @@ bool is_joined(const EndView& end, std::size_t count) {
   return joined_end(stretch, 0) == count;
 }
 
-void mend_end(const EndView& end, double sigma, double shared_px, std::vector<LocalFitPoint>& places) {
-  const auto scale = static_cast<std::size_t>(std::ceil(sigma));
-  const std::size_t narrow = 2 * scale, wide = 4 * scale, most = 3 * scale, retreat = 3 * scale;
-  if (end.size() < most + retreat + 2 * wide + 2) return;
-  const double reference = median_strength(end, most, most);
-  const auto whole = first_whole_point(end, kWhole * reference, most);
-  const std::size_t needed = whole.value_or(0) + retreat + 2 * wide + 1;
-  if (!whole || *whole == 0 || !is_joined(end, needed)) return;
-  places.clear();
-  for (std::size_t i = 0; i < needed; ++i) places.push_back({end[i].x, end[i].y});
-  const double dx = places[1].x - places[0].x, dy = places[1].y - places[0].y;
-  const double shared = std::max(1.0, shared_px / std::max(std::hypot(dx, dy), 0.5));
-  const Inside inside{places, end[*whole + narrow].sigma_px, shared, narrow, wide};
-  // An oblique cut draws the line aside before its strength falls: there the points further in do not lead to
-  // it.
-  const Continuation test = continue_line(inside, *whole, *whole + retreat, end[*whole]);
-  const double unexpected = std::abs(distance_across(test, end[*whole]));
-  // It draws it less than kObliqueReach aside; farther off the line bends.
-  const Continuation last = continue_line(inside, 0, *whole + retreat, end[0]);
-  const bool oblique = unexpected > 0.05 && unexpected > 3 * std::hypot(test.sigma, end[*whole].sigma_px) &&
-                       std::abs(distance_across(last, end[0])) < kObliqueReach * sigma;
-  const std::size_t first_good = oblique ? *whole + retreat : *whole;
-  for (std::size_t i = 0; i < first_good; ++i) {
-    StripePoint& p = end[i];
-    const Continuation c = continue_line(inside, i, first_good, p);
-    const double lost =
-        oblique ? 1 - static_cast<double>(i) / static_cast<double>(first_good) : 1 - p.strength / reference;
-    const double sigma_measured = std::hypot(p.sigma_px, kEndShift * lost * lost);
-    const double a = 1 / (sigma_measured * sigma_measured), b = 1 / (c.sigma * c.sigma);
-    const double across = distance_across(c, p) * b / (a + b);
-    p.x += across * c.normal_x;
-    p.y += across * c.normal_y;
-    p.sigma_px = 1 / std::sqrt(a + b);
-    if (!oblique) continue;
-    p.normal_x = c.normal_x;
-    p.normal_y = c.normal_y;
+/// The points of an end in the frame of its first whole point.
+void collect_points(const EndView& end, std::size_t disturbed, const LightEnd& light, double step,
+                    Direction along, double sigma_px, std::vector<EndPoint>& points) {
+  const StripePoint& origin = end[disturbed];
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double dx = end[i].x - origin.x, dy = end[i].y - origin.y;
+    const double z = light.inside + static_cast<double>(i) * step / light.spread;
+    const bool near = z < kFarthestInside;
+    points[i] = {(dx * along.x + dy * along.y) / light.spread, dy * along.x - dx * along.y,
+                 near ? light.shift(z) : 0.0, sigma_px * (near ? LightEnd::scatter(z) : 1.0)};
   }
+}
+
+void mend_end(const EndView& end, double sigma, double shared_px, std::vector<EndPoint>& points) {
+  const auto scale = static_cast<std::size_t>(std::ceil(sigma));
+  if (end.size() < 3 * scale) return;
+  const StripePoint& inner = end[std::min(4 * scale, end.size() - 1)];
+  const double step = std::clamp(std::hypot(end[1].x - end[0].x, end[1].y - end[0].y), 0.5, 1.5);
+  const LightEnd light = find_light_end(end, sigma, inner.width, step);
+  if (light.inside >= kWhole) return;
+  const double points_per_spread = light.spread / step;
+  const auto disturbed = std::min(
+      static_cast<std::size_t>(std::ceil((kWhole - light.inside) * points_per_spread)), end.size() - 1);
+  const std::size_t needed = disturbed + static_cast<std::size_t>(kWide * points_per_spread) + 1;
+  end.continue_systematic(disturbed);
+  if (end.size() < needed || !is_joined(end, needed)) {
+    // Too little of the line is known to tell how it goes on.
+    for (std::size_t i = 0; i < disturbed; ++i) {
+      const double z = light.inside + static_cast<double>(i) / points_per_spread;
+      const double scatter = std::max(end[i].sigma_px, inner.sigma_px * LightEnd::scatter(z));
+      end[i].sigma_px = std::hypot(scatter, kUsualCut * light.shift(z));
+    }
+    return;
+  }
+  const StripePoint &origin = end[disturbed], &ahead = end[disturbed + 2 * scale];
+  const double dx = ahead.x - origin.x, dy = ahead.y - origin.y, length = std::max(std::hypot(dx, dy), 1e-9);
+  const Direction along{dx / length, dy / length};
+  points.resize(needed);
+  collect_points(end, disturbed, light, step, along, inner.sigma_px, points);
+  move_points(end, disturbed, points, light, std::max(1.0, shared_px / step), along);
 }
 
 }  // namespace
 
-void mend_line_ends(const DerivativeKernels& kernels, LineSet& lines, std::vector<LocalFitPoint>& places) {
+void mend_line_ends(const DerivativeKernels& kernels, LineSet& lines) {
+  std::vector<EndPoint> points;
   for (const LineRange& r : lines.lines) {
     const std::span<StripePoint> line(lines.points.data() + r.begin, r.size());
-    mend_end({line, false}, kernels.sigma, r.shared_px, places);
-    mend_end({line, true}, kernels.sigma, r.shared_px, places);
+    const std::span<float> systematic = lines.systematic.size() == lines.points.size()
+                                            ? std::span(lines.systematic).subspan(r.begin, r.size())
+                                            : std::span<float>{};
+    mend_end({line, systematic, false}, kernels.sigma, r.shared_px, points);
+    mend_end({line, systematic, true}, kernels.sigma, r.shared_px, points);
   }
 }
 

@@ -29,8 +29,7 @@ TEST(LineEnds, WeakPointsGoOnWithTheLine) {
     lines.points[i].strength = lines.points[79 - i].strength = strength.at(i);
     lines.points[i].y += off.at(i), lines.points[79 - i].y -= off.at(i);
   }
-  std::vector<LocalFitPoint> scratch;
-  mend_line_ends(make_derivative_kernels(2), lines, scratch);
+  mend_line_ends(make_derivative_kernels(2), lines);
   for (const std::size_t i : {0, 1, 2, 3, 76, 77, 78, 79}) {
     EXPECT_NEAR(lines.points[i].y, 50, 0.03) << i;
     EXPECT_EQ(lines.points[i].x, 10.0 + static_cast<double>(i));
@@ -45,13 +44,12 @@ TEST(LineEnds, WeakPointsGoOnWithTheLine) {
 TEST(LineEnds, WholeEndsAndShortLinesStay) {
   LineSet lines = straight_line();
   lines.points[0].y = 50.4;  // as strong as all others: no end that the picture blurs
-  std::vector<LocalFitPoint> scratch;
-  mend_line_ends(make_derivative_kernels(2), lines, scratch);
+  mend_line_ends(make_derivative_kernels(2), lines);
   EXPECT_EQ(lines.points[0].y, 50.4);
   LineSet stub = straight_line();
   stub.lines[0].end = 25;  // too short for the wider parabola
   stub.points[0].strength = 2, stub.points[0].y = 50.4;
-  mend_line_ends(make_derivative_kernels(2), stub, scratch);
+  mend_line_ends(make_derivative_kernels(2), stub);
   EXPECT_EQ(stub.points[0].y, 50.4);
 }
 
