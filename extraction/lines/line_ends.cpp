@@ -9,7 +9,6 @@
 #include <limits>
 #include <numbers>
 #include <span>
-#include <vector>
 
 #include "extraction/lines/light_end.h"
 #include "extraction/lines/local_fit.h"
@@ -19,13 +18,19 @@ namespace {
 
 /// z of the light's end inside of which points are as good as any: an oblique cut draws them aside by less
 /// than a tenth of what it does to the last one.
-constexpr double kWhole = 2.2;
+constexpr double kWhole = 3;
 /// Tangent of the angle by which a stripe is cut off obliquely, 1 sigma, before the points have told it.
 constexpr double kUsualCut = 1;
 /// Of the shift that the cut explains: its error.
 constexpr double kShiftError = 0.25;
-/// Line that is looked at, in spreads of the end beyond the disturbed points.
+/// Line that is looked at, in sigmas of the kernels beyond the disturbed points.
 constexpr double kNarrow = 4, kWide = 8;
+/// z of the first point from which on no end is seen, but noise of the strengths.
+constexpr double kNoEnd = 2.2;
+/// Tangents that are tried: beyond the last one a cut only gets longer.
+constexpr std::array<double, 3> kTangents{0.5, 1, 2};
+/// Strengths agree with an end to some 2 % where neither grain nor shading spoils them.
+constexpr double kStrengthError = 0.02;
 /// Mean square of the misfits over the points' own: a parabola over the wide stretch that is worse is not
 /// used.
 constexpr double kMostMisfit = 1.5;
@@ -37,7 +42,7 @@ struct EndView {
   bool from_back;
 
   std::size_t size() const { return points.size(); }
-  /// The points before `first` have an error of their own now; what fades there fades as at `first`.
+  /// What fades before `first` fades as it does there: the end itself is counted otherwise.
   void continue_systematic(std::size_t first) const {
     if (systematic.empty()) return;
     const auto at = [&](std::size_t i) { return from_back ? systematic.size() - 1 - i : i; };
@@ -56,65 +61,77 @@ std::array<double, kEndSamples> strengths_of(const EndView& end, double spread, 
   return strengths;
 }
 
-/// The end for which the strengths speak. An oblique cut makes them fall more slowly.
-LightEnd find_light_end(const EndView& end, double sigma, double width, double step) {
-  LightEnd light{sigma, std::clamp(width / (2 * std::numbers::sqrt3), 0.3, 1.5 * sigma)};
-  const double square = light.width * light.width, share = square / (square + sigma * sigma);
-  double least = std::numeric_limits<double>::infinity();
-  for (const double tangent : {0.5, 1.0, 2.0}) {
-    const double spread = sigma * std::sqrt(1 + tangent * tangent * share);
-    const EndOfStrength fit = fit_light_end(strengths_of(end, spread, step));
-    if (fit.misfit >= 0.8 * least) continue;
-    least = fit.misfit;
-    light.spread = spread;
-    light.inside = fit.inside;
-  }
-  return light;
-}
-
-/// One of the points that tell how the line goes on.
-struct EndPoint {
-  double u = 0, across = 0;  ///< along the line from the first whole point on, in spreads; px across
-  double shift = 0;          ///< px, by a cut at 45 degrees
-  double scatter = 0;        ///< px, 1 sigma
-};
+using EndPoint = LineEndWorkspace::Point;
 
 /// The line as a parabola, and the tangent of the cut: a + b u + c u^2 + t shift.
 struct EndFit {
   Eigen::Vector4d value = Eigen::Vector4d::Zero();
   Eigen::Matrix4d covariance = Eigen::Matrix4d::Zero();
-  double misfit = 0;  ///< mean square over the expected one
+  double cost = 0;    ///< squares of the misfits over what is expected of them
+  double misfit = 0;  ///< the same as a mean square over a point's own scatter
+
+  double across(double u) const { return value[0] + u * (value[1] + u * value[2]); }
+  double slope(double u) const { return value[1] + 2 * u * value[2]; }
+  double sigma(double u) const {
+    const Eigen::Vector3d row(1, u, u * u);
+    return std::sqrt(row.dot(covariance.topLeftCorner<3, 3>() * row));
+  }
 };
 
 /// `shared`: points that share their noise. The second pass knows how far the shifts may be wrong.
 EndFit fit_end(std::span<const EndPoint> points, double shared) {
   EndFit fit;
-  for (int pass = 0; pass < 2; ++pass) {
+  for (int pass = 0; pass < 3; ++pass) {
     Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();
     normal(3, 3) = 1 / (kUsualCut * kUsualCut);
     Eigen::Vector4d right = Eigen::Vector4d::Zero();
-    double squares = 0;
+    fit.cost = fit.value[3] * fit.value[3] * normal(3, 3);
     for (const EndPoint& p : points) {
       const Eigen::Vector4d row(1, p.u, p.u * p.u, p.shift);
       const double wrong = kShiftError * fit.value[3] * p.shift;
-      const double variance = p.scatter * p.scatter + wrong * wrong, weight = 1 / (variance * shared);
+      const double weight = 1 / ((p.scatter * p.scatter + wrong * wrong) * shared);
       const double rest = p.across - row.dot(fit.value);
-      squares += rest * rest / variance;
+      fit.cost += weight * rest * rest;
       normal += weight * row * row.transpose();
       right += weight * p.across * row;
     }
-    fit.misfit = squares / static_cast<double>(points.size());  // of the first pass' line, at the end
+    if (pass == 2) break;  // the cost alone was wanted
     fit.covariance = normal.inverse();
     fit.value = fit.covariance * right;
   }
+  fit.misfit = fit.cost * shared / static_cast<double>(points.size());
   return fit;
 }
 
-double across_at(const EndFit& fit, double u) { return fit.value[0] + u * (fit.value[1] + u * fit.value[2]); }
+/// A cut of one angle, and the line that it leads to.
+struct Hypothesis {
+  LightEnd light;
+  double strength_misfit = 0;
+  std::size_t disturbed = 0;  ///< points
+  EndFit narrow;
+  double cost = 0;
+};
 
-double sigma_at(const EndFit& fit, double u) {
-  const Eigen::Vector3d row(1, u, u * u);
-  return std::sqrt(row.dot(fit.covariance.topLeftCorner<3, 3>() * row));
+/// -2 log of the probability that a cut has about this tangent, where all angles are equally likely.
+double surprise_of(double tangent) { return tangent < 0.75 ? 1.8 : 3.1; }
+
+double z_of(const LightEnd& light, std::size_t i, double step) {
+  return light.inside + static_cast<double>(i) * step / light.spread();
+}
+
+std::array<Hypothesis, kTangents.size()> ends_by_strength(const EndView& end, double sigma, double width,
+                                                          double step) {
+  std::array<Hypothesis, kTangents.size()> all;
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    Hypothesis& h = all.at(k);
+    h.light = {sigma, std::clamp(width / (2 * std::numbers::sqrt3), 0.3, 1.5 * sigma), kTangents.at(k)};
+    const EndOfStrength fit = fit_light_end(h.light, strengths_of(end, h.light.spread(), step));
+    h.light.inside = fit.inside;
+    h.strength_misfit = fit.misfit + kEndSamples * kStrengthError * kStrengthError;
+    const double length = std::max(0.0, kWhole - fit.inside) * h.light.spread() / step;
+    h.disturbed = std::min(static_cast<std::size_t>(std::ceil(length)), end.size() - 1);
+  }
+  return all;
 }
 
 /// A direction in the picture, unit.
@@ -122,26 +139,32 @@ struct Direction {
   double x = 1, y = 0;
 };
 
-/// Moves the first `disturbed` points onto the line that all points together tell.
-void move_points(const EndView& end, std::size_t disturbed, std::span<const EndPoint> points,
-                 const LightEnd& light, double shared, Direction along) {
-  const auto narrow_count =
-      static_cast<std::size_t>(static_cast<double>(points.size() - disturbed) * kNarrow / kWide);
-  const EndFit narrow = fit_end(points.first(disturbed + narrow_count), shared),
-               wide = fit_end(points, shared);
-  const EndFit& line = wide.misfit < kMostMisfit ? wide : narrow;
-  const double side = end[disturbed].normal_y * along.x - end[disturbed].normal_x * along.y > 0 ? 1.0 : -1.0;
-  for (std::size_t i = 0; i < disturbed; ++i) {
+/// What the end does to each of the points, for one angle of the cut.
+void set_influence(const LightEnd& light, double step, double sigma_px, std::span<EndPoint> points) {
+  const EndCurves curves(light);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const EndInfluence influence = curves.at(z_of(light, i, step));
+    points[i].shift = influence.shift;
+    points[i].scatter = sigma_px * influence.scatter;
+  }
+}
+
+/// Moves the disturbed points onto the line that all points together tell.
+void move_points(const EndView& end, const Hypothesis& h, const EndFit& wide,
+                 std::span<const EndPoint> points, Direction along) {
+  const EndFit& line = wide.misfit < kMostMisfit ? wide : h.narrow;
+  const StripePoint& whole = end[h.disturbed];
+  const double side = whole.normal_y * along.x - whole.normal_x * along.y > 0 ? 1.0 : -1.0;
+  for (std::size_t i = 0; i < h.disturbed; ++i) {
     StripePoint& p = end[i];
-    const double u = points[i].u, by = across_at(line, u) - points[i].across;
+    const double u = points[i].u, by = line.across(u) - points[i].across;
     p.x -= by * along.y;
     p.y += by * along.x;
-    const double doubt = 0.5 * (across_at(narrow, u) - across_at(wide, u));
+    const double doubt = 0.5 * (wide.across(u) - h.narrow.across(u));
     // The shifts of all points are wrong together, which a fit of independent errors does not know.
     const double wrong = 0.5 * kShiftError * line.value[3] * points[i].shift;
-    p.sigma_px = std::hypot(sigma_at(line, u), doubt, wrong);
-    const double slope = (line.value[1] + 2 * u * line.value[2]) / light.spread;
-    const double scale = side / std::sqrt(1 + slope * slope);
+    p.sigma_px = std::hypot(line.sigma(u), doubt, wrong);
+    const double slope = line.slope(u) / h.light.sigma, scale = side / std::sqrt(1 + slope * slope);
     p.normal_x = scale * (-along.y - slope * along.x);
     p.normal_y = scale * (along.x - slope * along.y);
   }
@@ -152,16 +175,13 @@ bool is_joined(const EndView& end, std::size_t count) {
   return joined_end(stretch, 0) == count;
 }
 
-/// The points of an end in the frame of its first whole point.
-void collect_points(const EndView& end, std::size_t disturbed, const LightEnd& light, double step,
-                    Direction along, double sigma_px, std::vector<EndPoint>& points) {
-  const StripePoint& origin = end[disturbed];
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const double dx = end[i].x - origin.x, dy = end[i].y - origin.y;
-    const double z = light.inside + static_cast<double>(i) * step / light.spread;
-    const bool near = z < kFarthestInside;
-    points[i] = {(dx * along.x + dy * along.y) / light.spread, dy * along.x - dx * along.y,
-                 near ? light.shift(z) : 0.0, sigma_px * (near ? LightEnd::scatter(z) : 1.0)};
+/// Too little of the line is known to tell how it goes on.
+void widen_errors(const EndView& end, const Hypothesis& h, double sigma_px, double step) {
+  const EndCurves curves(h.light);
+  for (std::size_t i = 0; i < h.disturbed; ++i) {
+    const EndInfluence influence = curves.at(z_of(h.light, i, step));
+    const double scatter = std::max(end[i].sigma_px, sigma_px * influence.scatter);
+    end[i].sigma_px = std::hypot(scatter, kUsualCut * influence.shift);
   }
 }
 
@@ -170,41 +190,52 @@ void mend_end(const EndView& end, double sigma, double shared_px, std::vector<En
   if (end.size() < 3 * scale) return;
   const StripePoint& inner = end[std::min(4 * scale, end.size() - 1)];
   const double step = std::clamp(std::hypot(end[1].x - end[0].x, end[1].y - end[0].y), 0.5, 1.5);
-  const LightEnd light = find_light_end(end, sigma, inner.width, step);
-  if (light.inside >= kWhole) return;
-  const double points_per_spread = light.spread / step;
-  const auto disturbed = std::min(
-      static_cast<std::size_t>(std::ceil((kWhole - light.inside) * points_per_spread)), end.size() - 1);
-  const std::size_t needed = disturbed + static_cast<std::size_t>(kWide * points_per_spread) + 1;
-  end.continue_systematic(disturbed);
-  if (end.size() < needed || !is_joined(end, needed)) {
-    // Too little of the line is known to tell how it goes on.
-    for (std::size_t i = 0; i < disturbed; ++i) {
-      const double z = light.inside + static_cast<double>(i) / points_per_spread;
-      const double scatter = std::max(end[i].sigma_px, inner.sigma_px * LightEnd::scatter(z));
-      end[i].sigma_px = std::hypot(scatter, kUsualCut * light.shift(z));
-    }
-    return;
-  }
-  const StripePoint &origin = end[disturbed], &ahead = end[disturbed + 2 * scale];
+  auto all = ends_by_strength(end, sigma, inner.width, step);
+  const auto worse = [](const Hypothesis& a, const Hypothesis& b) {
+    return a.strength_misfit < b.strength_misfit;
+  };
+  const Hypothesis& likeliest = *std::min_element(all.begin(), all.end(), worse);
+  if (likeliest.light.inside >= kNoEnd) return;
+  std::size_t reach = 0;
+  for (const Hypothesis& h : all) reach = std::max(reach, h.disturbed);
+  end.continue_systematic(reach + scale);  // where fading was looked at over undisturbed points
+  const auto narrow_count = reach + static_cast<std::size_t>(kNarrow * sigma / step),
+             count = reach + static_cast<std::size_t>(kWide * sigma / step);
+  if (end.size() <= count || !is_joined(end, count))
+    return widen_errors(end, likeliest, inner.sigma_px, step);
+
+  const StripePoint &origin = end[reach], &ahead = end[std::min(reach + 2 * scale, count)];
   const double dx = ahead.x - origin.x, dy = ahead.y - origin.y, length = std::max(std::hypot(dx, dy), 1e-9);
   const Direction along{dx / length, dy / length};
-  points.resize(needed);
-  collect_points(end, disturbed, light, step, along, inner.sigma_px, points);
-  move_points(end, disturbed, points, light, std::max(1.0, shared_px / step), along);
+  points.resize(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const double x = end[i].x - origin.x, y = end[i].y - origin.y;
+    points[i] = {(x * along.x + y * along.y) / sigma, y * along.x - x * along.y, 0, 0};
+  }
+  const double shared = std::max(1.0, shared_px / step);
+  for (Hypothesis& h : all) {
+    const auto first = std::span(points).first(narrow_count);
+    set_influence(h.light, step, inner.sigma_px, first);
+    h.narrow = fit_end(first, shared);
+    // Three or four of the strengths are independent of each other.
+    h.cost = h.narrow.cost + 4 * std::log(h.strength_misfit) + surprise_of(h.light.tangent);
+  }
+  const auto cheaper = [](const Hypothesis& a, const Hypothesis& b) { return a.cost < b.cost; };
+  const Hypothesis& best = *std::min_element(all.begin(), all.end(), cheaper);
+  set_influence(best.light, step, inner.sigma_px, points);
+  move_points(end, best, fit_end(points, shared), points, along);
 }
 
 }  // namespace
 
-void mend_line_ends(const DerivativeKernels& kernels, LineSet& lines) {
-  std::vector<EndPoint> points;
+void mend_line_ends(const DerivativeKernels& kernels, LineSet& lines, LineEndWorkspace& workspace) {
   for (const LineRange& r : lines.lines) {
     const std::span<StripePoint> line(lines.points.data() + r.begin, r.size());
     const std::span<float> systematic = lines.systematic.size() == lines.points.size()
                                             ? std::span(lines.systematic).subspan(r.begin, r.size())
                                             : std::span<float>{};
-    mend_end({line, systematic, false}, kernels.sigma, r.shared_px, points);
-    mend_end({line, systematic, true}, kernels.sigma, r.shared_px, points);
+    mend_end({line, systematic, false}, kernels.sigma, r.shared_px, workspace.points);
+    mend_end({line, systematic, true}, kernels.sigma, r.shared_px, workspace.points);
   }
 }
 
