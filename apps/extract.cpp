@@ -12,6 +12,7 @@
 #include "apps/table_style.h"
 #include "core/counted.h"
 #include "core/error.h"
+#include "pipeline/overlay_files.h"
 #include "report/explain_extraction.h"
 #include "report/extraction_pictures.h"
 

@@ -8,7 +8,6 @@
 #include "apps/command.h"
 #include "apps/options.h"
 #include "apps/self_description.h"
-#include "core/error.h"
 #include "io/atomic_file.h"
 #include "io/output_guard.h"
 #include "io/session_file.h"
@@ -29,16 +28,12 @@ std::string generated(const GenerateArguments& arguments, const CLI::App& app) {
   return arguments.what == "man-page" ? man_page(app, LIGHTSTRIPE_VERSION) : bash_completion(app);
 }
 
-/// An option that would do nothing is a mistake.
-void refuse_unused(const GenerateArguments& arguments) {
-  if (!arguments.target.empty() && arguments.what != "board")
-    throw Error("--target", "says nothing to " + arguments.what, "leave it out: it is the board's");
-  if (!arguments.references.empty() && arguments.what != "conformance")
-    throw Error("--references", "says nothing to " + arguments.what, "leave it out: it is conformance's");
-}
-
 int run_generate(const GenerateArguments& arguments, const CLI::App& app) {
-  refuse_unused(arguments);
+  refuse_unused(*app.get_subcommand("generate"), arguments.what, [&](const std::string& option) {
+    if (option == "--target" && arguments.what != "board") return "leave it out: it is the board's";
+    return option == "--references" && arguments.what != "conformance" ? "leave it out: it is conformance's"
+                                                                       : "";
+  });
   std::error_code none;
   if (std::filesystem::is_regular_file(arguments.target, none))
     guard_outputs({arguments.target}, {arguments.common.output});

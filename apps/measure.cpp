@@ -138,19 +138,13 @@ void add_reference_options(CLI::App& command, MeasureArguments& arguments) {
                      "with --wheelset: table of every section's conicity over the amplitude (csv)");
 }
 
-/// An option that would do nothing with this kind is a mistake.
-void refuse_unused(const CLI::App& command, const std::string& kind) {
+/// Whether the option does anything with this kind.
+bool is_used(const std::string& option, const std::string& kind) {
   static const std::set<std::string> of_features{"profiles", "--kind",      "--features",
                                                  "--report", "--csv-style", "--rig",
                                                  "--output", "--threads",   "--quiet"};
-  for (const CLI::Option* option : command.get_options()) {
-    const std::string name = option->get_name();
-    const bool of_wheels = name.starts_with("--wheel."), of_others = name == "--features";
-    const bool used =
-        kind == "features" ? of_features.contains(name) : !of_others && (kind == "wheel" || !of_wheels);
-    if (option->count() > 0 && !used)
-      throw Error(name, "says nothing to --kind " + kind, "leave it out, or give another --kind");
-  }
+  if (kind == "features") return of_features.contains(option);
+  return option != "--features" && (kind == "wheel" || !option.starts_with("--wheel."));
 }
 
 }  // namespace
@@ -202,7 +196,10 @@ void add_measure_command(CLI::App& app, Command& run) {
   command->add_option("--max-overlap-gap-mm", arguments->job.options.max_overlap_gap_mm,
                       "between two sensors on the head: above, the calibration is in doubt [0.1]");
   command->callback([arguments, command, &run] {
-    refuse_unused(*command, arguments->kind);
+    const std::string& kind = arguments->kind;
+    refuse_unused(*command, "--kind " + kind, [&](const std::string& option) {
+      return is_used(option, kind) ? "" : "leave it out, or give another --kind";
+    });
     arguments->job.kind = arguments->kind == "wheel" ? ObjectKind::kWheel : ObjectKind::kRail;
     run = [arguments] {
       return arguments->kind == "features" ? run_features(*arguments) : run_measure(*arguments);

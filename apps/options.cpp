@@ -7,6 +7,8 @@
 
 #include <algorithm>
 
+#include "core/error.h"
+
 namespace lightstripe {
 
 CLI::Option* one_of(CLI::Option* option, const std::vector<std::string>& names) {
@@ -27,6 +29,15 @@ void add_common_options(CLI::App& app, CommonOptions& options, const std::string
       ->check(CLI::Range(1, 1024))
       ->group("General");
   app.add_flag("--quiet", options.quiet, "print warnings and errors only")->group("General");
+}
+
+void refuse_unused(const CLI::App& command, const std::string& choice,
+                   const std::function<std::string(const std::string&)>& advice) {
+  for (const CLI::Option* option : command.get_options()) {
+    if (option->count() == 0) continue;
+    const std::string name = option->get_name(), what_to_do = advice(name);
+    if (!what_to_do.empty()) throw Error(name, "says nothing to " + choice, what_to_do);
+  }
 }
 
 void add_field_options(CLI::App& app, const std::string& prefix, const std::vector<FieldText>& fields,

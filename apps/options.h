@@ -4,7 +4,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
-#include <memory>
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,6 +16,11 @@ namespace lightstripe {
 
 /// --threads, --quiet, -o/--output. `output_help` says what is written and where if it is not given.
 void add_common_options(CLI::App& app, CommonOptions& options, const std::string& output_help);
+
+/// An option that was given and would do nothing with this choice ("--kind rail") is a mistake: an Error.
+/// `advice(option's name)` says what to do then; it is empty where the option does something.
+void refuse_unused(const CLI::App& command, const std::string& choice,
+                   const std::function<std::string(const std::string&)>& advice);
 
 /// Makes an option take one of these names only; --help, messages and the shell's completion list them.
 CLI::Option* one_of(CLI::Option* option, const std::vector<std::string>& names);

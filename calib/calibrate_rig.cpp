@@ -113,10 +113,7 @@ void assess(const SessionViews& session, const JointAdjustment& adjustment,
   const auto section = section_uncertainty(errors, adjustment.covariance);
   quality.section_shape_sigma_mm = section.shape_mm;
   quality.section_absolute_sigma_mm = section.absolute_mm;
-  quality.section_bends = session.motion == MotionType::kRotary
-                              ? section_bends(axial_section_errors(adjustment, up, errors.samples),
-                                              adjustment.covariance, SectionFreedom::kAlongAxis)
-                              : section_bends(errors, adjustment.covariance, SectionFreedom::kRigid);
+  quality.section_bends = section_bends(session, adjustment, errors, up);
   const CalibrationDiagnosis& diagnosis =
       result.diagnosis.emplace(diagnose(session, adjustment, spreads, errors, up, options));
   if (diagnosis.cross_validation.done) quality.cross_validation_ratio = diagnosis.cross_validation.ratio();

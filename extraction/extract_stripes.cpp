@@ -19,6 +19,7 @@
 #include "extraction/kernels/width_rule.h"
 #include "extraction/lines/curvature_bias.h"
 #include "extraction/lines/line_ends.h"
+#include "extraction/lines/line_fade.h"
 #include "extraction/lines/line_junctions.h"
 #include "extraction/lines/line_measure.h"
 #include "extraction/lines/line_noise.h"
@@ -226,13 +227,14 @@ void finish_lines(const Run<T>& run, ScaleGroup& group) {
   const DerivativeKernels& kernels = *group.kernels;
   predict_errors(run.image, kernels, run.facts.noise.full, group.lines, w.errors);
   if (has_ridges(run.options.method)) {
-    mend_line_ends(kernels, group.lines, w.bends.nodes);
+    find_fade_errors(kernels, group.lines, w.values);
+    mend_line_ends(kernels, group.lines, w.ends);
     mend_junctions(kernels, group.lines);
   }
   if (run.options.curvature_correction && has_ridges(run.options.method))
     correct_curvature_bias(kernels, group.lines, w.bends);
   if (run.options.smoothing) smooth_along_lines(group.lines, w.smoothing);
-  add_bend_errors(group.lines);
+  add_systematic_errors(group.lines);
   // Last: neither bends nor smoothing may take a bias for scatter.
   add_asymmetry(run.image, kernels, group.lines, w.asymmetry);
 }

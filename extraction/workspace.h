@@ -15,6 +15,7 @@
 #include "extraction/lines/curvature_bias.h"
 #include "extraction/lines/faint_lines.h"
 #include "extraction/lines/line_asymmetry.h"
+#include "extraction/lines/line_ends.h"
 #include "extraction/lines/line_filter.h"
 #include "extraction/lines/line_noise.h"
 #include "extraction/lines/line_set.h"
@@ -43,6 +44,7 @@ struct ExtractionWorkspace {
   ErrorWorkspace errors;
   AsymmetryWorkspace asymmetry;
   SmoothingWorkspace smoothing;
+  LineEndWorkspace ends;
   BendWorkspace bends;
   OwnScaleWorkspace<std::uint8_t> own_scale8;
   OwnScaleWorkspace<std::uint16_t> own_scale16;

@@ -31,7 +31,6 @@ class KlingelWave {
  private:
   double turning_point(double energy, bool right) const;
 
-  double step_ = 0, first_ = 0;
   std::vector<double> shift_, potential_;  ///< fine steps; the integral of delta_r / 2 from the middle
   std::vector<double> left_, right_;       ///< its rising envelope from the middle outwards
   std::size_t middle_index_ = 0;

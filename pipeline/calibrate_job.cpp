@@ -13,8 +13,10 @@
 #include "io/output_guard.h"
 #include "io/rig_file.h"
 #include "pipeline/calibration_advice.h"
+#include "pipeline/overlay_files.h"
 #include "pipeline/run_record.h"
 #include "pipeline/scan_lines.h"
+#include "pipeline/session_tasks.h"
 
 namespace lightstripe {
 namespace {
@@ -73,17 +75,10 @@ void write_results(const CalibrateJob& job, CalibrateResult& result) {
 
 void guard(const CalibrateJob& job) {
   std::vector<fs::path> inputs = files_of(job.session), outputs = job.other_outputs;
-  if (!job.overlay_folder.empty())
-    for (const fs::path& picture : inputs)  // each in the folder of its sensor
-      for (const SessionSensor& sensor : job.session.sensors) {
-        const std::string name = picture.stem().string() + ".png";
-        outputs.push_back(job.overlay_folder / sensor.name / name);
-        outputs.push_back(job.overlay_folder / sensor.name /
-                          (picture.parent_path().filename().string() + "_" + name));
-      }
-  std::sort(outputs.begin(), outputs.end());  // some of these names only are taken
-  outputs.erase(std::unique(outputs.begin(), outputs.end()), outputs.end());
   inputs.push_back(job.session_file);
+  if (!job.overlay_folder.empty())
+    for (const fs::path& file : board_overlay_files(board_pictures(job.session), job.overlay_folder))
+      outputs.push_back(file);
   if (!job.rig.empty()) outputs.insert(outputs.end(), {job.rig, job.rig.string() + ".run.yaml"});
   if (!job.camera_folder.empty())
     for (const SessionSensor& sensor : job.session.sensors)

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <sstream>
+#include <utility>
 
 #include "core/counted.h"
 #include "core/error.h"
@@ -152,16 +153,19 @@ void measure_rows(const MeasureJob& job, MeasureResult& result, StepCounter& ste
     const std::size_t first = b * block, last = std::min(profiles.size(), first + block);
     const std::size_t middle = (first + last) / 2;
     if (stop.stop_requested()) return;
-    result.rows[middle] = references.measure(profiles[middle], result.input, job.options);
-    const MeasuredFrame plain = last - first > 1
-                                    ? references.measure_plain(profiles[middle], result.input, job.options)
-                                    : MeasuredFrame{};
+    const auto measure_plain = [&](std::size_t i) {
+      return references.measure_plain(profiles[i], result.input, job.options);
+    };
+    const auto with_errors = [&](const MeasuredFrame& plain, std::size_t i) {
+      return references.with_errors(plain, profiles[i], result.input, job.options);
+    };
+    const MeasuredFrame plain = measure_plain(middle);
+    result.rows[middle] = with_errors(plain, middle);
     steps.step();
     for (std::size_t i = first; i < last; ++i) {
       if (i == middle || stop.stop_requested()) continue;
-      result.rows[i] = references.measure_plain(profiles[i], result.input, job.options);
-      if (!borrow_bends(plain, result.rows[middle], result.rows[i]))
-        result.rows[i] = references.measure(profiles[i], result.input, job.options);
+      MeasuredFrame row = measure_plain(i);
+      result.rows[i] = borrow_bends(plain, result.rows[middle], row) ? std::move(row) : with_errors(row, i);
       steps.step();
     }
   });

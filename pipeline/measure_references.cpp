@@ -112,12 +112,12 @@ MeasuredFrame MeasureReferences::measure_plain(const Profile& profile, const Mea
                       {baseline_ ? &*baseline_ : nullptr, wheelset_ ? &*wheelset_ : nullptr});
 }
 
-MeasuredFrame MeasureReferences::measure(const Profile& profile, const MeasureInput& input,
-                                         const MeasureOptions& options) const {
+MeasuredFrame MeasureReferences::with_errors(const MeasuredFrame& plain, const Profile& profile,
+                                             const MeasureInput& input, const MeasureOptions& options) const {
   const std::size_t own = errors_.bends.bends.size(), of_baseline = same_rig_ ? 0 : bent_baselines_.size();
   const Baseline* const baseline = baseline_ ? &*baseline_ : nullptr;
   return measure_with_errors(own + of_baseline, [&](std::optional<std::size_t> error) {
-    if (!error) return measure_plain(profile, input, options);
+    if (!error) return plain;
     Standards standards{baseline, wheelset_ ? &*wheelset_without_sigma_ : nullptr};
     if (same_rig_ || *error >= own) standards.baseline = &bent_baselines_[same_rig_ ? *error : *error - own];
     return measure_seen(*error < own ? bent(profile, errors_.bends, *error) : profile, input, options,

@@ -41,11 +41,12 @@ class MeasureReferences {
   /// What `auto` has found.
   const std::optional<IdentifiedRail>& identified() const { return identified_; }
 
-  MeasuredFrame measure(const Profile& profile, const MeasureInput& input,
-                        const MeasureOptions& options) const;
   /// As if the calibration were without error.
   MeasuredFrame measure_plain(const Profile& profile, const MeasureInput& input,
                               const MeasureOptions& options) const;
+  /// `plain`, which is measure_plain() of this profile, with what the calibration's errors do to it.
+  MeasuredFrame with_errors(const MeasuredFrame& plain, const Profile& profile, const MeasureInput& input,
+                            const MeasureOptions& options) const;
   /// Columns behind `status`.
   std::vector<std::string> extra_columns() const;
 

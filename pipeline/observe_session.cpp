@@ -284,13 +284,8 @@ void observe_bed(const Session& session, std::size_t index, const BackgroundPict
 SessionObservations observe_session(const Session& session, const ExtractionOptions& extraction,
                                     const ProgressCallback& progress, const std::stop_token& stop) {
   SessionObservations seen;
-  std::vector<ViewTask> tasks;
-  const auto backgrounds = sensor_backgrounds(session);
-  for (std::size_t i = 0; i < session.sensors.size(); ++i)
-    for (auto& task : sensor_tasks(session, static_cast<int>(i), backgrounds[i].get(), seen.rejected))
-      tasks.push_back(std::move(task));
-  for (auto& task : motion_tasks(session)) tasks.push_back(std::move(task));
-
+  const SensorBackgrounds backgrounds = sensor_backgrounds(session);
+  const std::vector<ViewTask> tasks = session_tasks(session, backgrounds, seen.rejected);
   const std::vector<Channel> channels = sensor_channels(session, tasks);
   for (std::size_t i = 0; i < channels.size(); ++i)
     if (!session.sensors[i].no_laser || session.sensors[i].heights)

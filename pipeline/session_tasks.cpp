@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <utility>
 
 #include "core/error.h"
 #include "io/tables.h"
@@ -77,13 +78,31 @@ std::vector<ViewTask> motion_tasks(const Session& session) {
   return tasks;
 }
 
-std::vector<std::unique_ptr<BackgroundPictures>> sensor_backgrounds(const Session& session) {
-  std::vector<std::unique_ptr<BackgroundPictures>> backgrounds(session.sensors.size());
+SensorBackgrounds sensor_backgrounds(const Session& session) {
+  SensorBackgrounds backgrounds(session.sensors.size());
   for (std::size_t i = 0; i < session.sensors.size(); ++i)
     if (const auto& pattern = session.sensors[i].background)
       backgrounds[i] = std::make_unique<BackgroundPictures>(session.folder, *pattern,
                                                             session.sensors[i].name + ": background");
   return backgrounds;
+}
+
+std::vector<ViewTask> session_tasks(const Session& session, const SensorBackgrounds& backgrounds,
+                                    std::vector<RejectedImage>& rejected) {
+  std::vector<ViewTask> tasks;
+  for (std::size_t i = 0; i < session.sensors.size(); ++i)
+    for (ViewTask& task : sensor_tasks(session, static_cast<int>(i), backgrounds[i].get(), rejected))
+      tasks.push_back(std::move(task));
+  for (ViewTask& task : motion_tasks(session)) tasks.push_back(std::move(task));
+  return tasks;
+}
+
+std::vector<std::pair<std::string, fs::path>> board_pictures(const Session& session) {
+  std::vector<RejectedImage> rejected;  // told when the pictures are looked at
+  std::vector<std::pair<std::string, fs::path>> pictures;
+  for (const ViewTask& task : session_tasks(session, SensorBackgrounds(session.sensors.size()), rejected))
+    pictures.emplace_back(session.sensors[static_cast<std::size_t>(task.sensor)].name, task.board);
+  return pictures;
 }
 
 std::vector<Channel> sensor_channels(const Session& session, const std::vector<ViewTask>& tasks) {

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "io/session_file.h"
@@ -35,7 +36,15 @@ std::vector<ViewTask> sensor_tasks(const Session& session, int sensor, const Bac
 std::vector<ViewTask> motion_tasks(const Session& session);
 
 /// One for each sensor, null where it has none.
-std::vector<std::unique_ptr<BackgroundPictures>> sensor_backgrounds(const Session& session);
+using SensorBackgrounds = std::vector<std::unique_ptr<BackgroundPictures>>;
+SensorBackgrounds sensor_backgrounds(const Session& session);
+
+/// Those of every sensor, then those of the motion.
+std::vector<ViewTask> session_tasks(const Session& session, const SensorBackgrounds& backgrounds,
+                                    std::vector<RejectedImage>& rejected);
+
+/// Sensor and file of every board picture, in the order of session_tasks().
+std::vector<std::pair<std::string, std::filesystem::path>> board_pictures(const Session& session);
 
 /// One channel for each sensor: what the session says, or the vote of the pictures that show its laser.
 std::vector<Channel> sensor_channels(const Session& session, const std::vector<ViewTask>& tasks);

@@ -3,12 +3,13 @@
 #include "report/board_overlay.h"
 
 #include <algorithm>
-#include <map>
 #include <opencv2/imgproc.hpp>
+#include <string>
+#include <utility>
 
 #include "io/images.h"
 #include "parallel/parallel.h"
-#include "report/extraction_pictures.h"
+#include "pipeline/overlay_files.h"
 
 namespace lightstripe {
 namespace {
@@ -71,18 +72,13 @@ OverlayPicture draw_board(const SeenPicture& picture, int max_width_px) {
 }
 
 void write_overlays(const fs::path& folder, const std::vector<SeenPicture>& pictures) {
-  std::map<std::string, std::vector<std::size_t>> by_sensor;
-  for (std::size_t i = 0; i < pictures.size(); ++i) by_sensor[pictures[i].sensor].push_back(i);
-  for (const auto& entry : by_sensor) {
-    const std::vector<std::size_t>& own = entry.second;
-    std::vector<std::string> images;
-    for (const std::size_t i : own) images.push_back(pictures[i].board.string());
-    const std::vector<fs::path> files = overlay_files(images, folder / entry.first);
-    parallel_for(own.size(), [&](std::size_t k) {
-      const OverlayPicture overlay = draw_board(pictures[own[k]], 0);
-      write_rgb_image(files[k], overlay.rgb, overlay.width, overlay.height);
-    });
-  }
+  std::vector<std::pair<std::string, fs::path>> boards;
+  for (const SeenPicture& picture : pictures) boards.emplace_back(picture.sensor, picture.board);
+  const std::vector<fs::path> files = board_overlay_files(boards, folder);
+  parallel_for(pictures.size(), [&](std::size_t i) {
+    const OverlayPicture overlay = draw_board(pictures[i], 0);
+    write_rgb_image(files[i], overlay.rgb, overlay.width, overlay.height);
+  });
 }
 
 }  // namespace lightstripe

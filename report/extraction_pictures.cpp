@@ -2,9 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "report/extraction_pictures.h"
 
-#include <fmt/format.h>
-
-#include <set>
+#include <string>
+#include <variant>
 
 #include "extraction/draw/histogram_plot.h"
 #include "extraction/draw/overlay.h"
@@ -13,20 +12,6 @@
 namespace lightstripe {
 
 namespace fs = std::filesystem;
-
-std::vector<fs::path> overlay_files(const std::vector<std::string>& images, const fs::path& folder) {
-  std::vector<fs::path> names;
-  std::set<std::string> taken;
-  for (const auto& image : images) {
-    const fs::path path(image);
-    std::string name = path.stem().string();
-    if (taken.contains(name)) name = path.parent_path().filename().string() + "_" + name;
-    for (int copy = 2; taken.contains(name); ++copy) name = fmt::format("{}_{}", path.stem().string(), copy);
-    taken.insert(name);
-    names.push_back(folder / (name + ".png"));
-  }
-  return names;
-}
 
 void write_overlay(const fs::path& file, const fs::path& image, const ExtractionResult& result) {
   RgbImage picture = read_rgb_image(image);

@@ -4,18 +4,11 @@
 #pragma once
 
 #include <filesystem>
-#include <string>
-#include <vector>
 
 #include "extraction/result.h"
 #include "io/images.h"
 
 namespace lightstripe {
-
-/// <folder>/<image's name>.png for each image. Images of the same name from several folders are kept apart by
-/// their folder's name in front, or by a number.
-std::vector<std::filesystem::path> overlay_files(const std::vector<std::string>& images,
-                                                 const std::filesystem::path& folder);
 
 /// Writes the original picture of the file `image` with its lines drawn in.
 void write_overlay(const std::filesystem::path& file, const std::filesystem::path& image,

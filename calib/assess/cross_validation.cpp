@@ -64,15 +64,14 @@ CrossValidation cross_validate(const SessionViews& session, const JointAdjustmen
   std::array<Eigen::VectorXd, 2> sections;
   for (std::size_t i = 0; i < 2; ++i)
     sections[i] = section_of(adjusted[i].state, session.motion, up, samples);
-  const auto without_rigid = without_rigid_motion(sections[0]);
   double variance = 0;
   for (const auto& half : adjusted) {
-    const Eigen::MatrixXd J = without_rigid * section_jacobian(session, half, up, samples);
+    const Eigen::MatrixXd J = without_rigid_motion(sections[0], section_jacobian(session, half, up, samples));
     variance += (J * half.covariance).cwiseProduct(J).sum() / static_cast<double>(samples.size());
   }
   result.done = true;
-  result.difference_mm =
-      (without_rigid * (sections[1] - sections[0])).norm() / std::sqrt(static_cast<double>(samples.size()));
+  result.difference_mm = without_rigid_motion(sections[0], sections[1] - sections[0]).norm() /
+                         std::sqrt(static_cast<double>(samples.size()));
   result.predicted_mm = std::sqrt(variance);
   return result;
 }

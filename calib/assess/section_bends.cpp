@@ -40,25 +40,16 @@ std::vector<double> rounded(const VectorXd& coefficients) {
   return out;
 }
 
-/// How many of the rigid motions (shift along y or the axis, the other shift, turn) a look leaves out.
-enum Motions : Index { kShiftAlong = 1, kShifts = 2, kAll = 3 };
-
-/// Displacements less the first `motions` rigid motions that fit each of them best.
-MatrixXd without(Motions motions, const VectorXd& section, const MatrixXd& displacements) {
-  const MatrixXd basis = rigid_motions(section).leftCols(motions);
-  return displacements - basis * (basis.transpose() * displacements);
-}
-
 /// The errors as the part of the section that these sensors see has them, less the rigid motions: products
 /// of every two errors' displacements, over the sum of all squares. Empty where too little is seen.
-MatrixXd seen_by(const std::vector<int>& sensors, Motions motions, const SectionErrors& errors,
+MatrixXd seen_by(const std::vector<int>& sensors, RigidMotions motions, const SectionErrors& errors,
                  const MatrixXd& displacements) {
   std::vector<Index> rows;
   for (std::size_t i = 0; i < errors.samples.size(); ++i)
     if (std::find(sensors.begin(), sensors.end(), errors.samples[i].sensor) != sensors.end())
       for (const Index axis : {0, 1}) rows.push_back(2 * static_cast<Index>(i) + axis);
-  if (rows.size() < 2 * kAll) return {};
-  const MatrixXd seen = without(motions, errors.section(rows), displacements(rows, Eigen::all));
+  if (rows.size() < 2 * kAllMotions) return {};
+  const MatrixXd seen = without_rigid_motion(errors.section(rows), displacements(rows, Eigen::all), motions);
   return seen.transpose() * seen / std::max(seen.squaredNorm(), 1e-300);
 }
 
@@ -69,15 +60,15 @@ std::vector<MatrixXd> looks_at(const SectionErrors& errors, const MatrixXd& disp
   std::vector<int> all(static_cast<std::size_t>(sensors));
   std::iota(all.begin(), all.end(), 0);
   std::vector<MatrixXd> grams;
-  const auto look = [&](const std::vector<int>& by, Motions motions) {
+  const auto look = [&](const std::vector<int>& by, RigidMotions motions) {
     MatrixXd gram = seen_by(by, motions, errors, displacements);
     if (gram.size() > 0) grams.push_back(std::move(gram));
   };
-  look(all, kAll);
+  look(all, kAllMotions);
   if (freedom == SectionFreedom::kAlongAxis) look(all, kShifts), look(all, kShiftAlong);
   for (int a = 0; a < sensors && sensors > 1; ++a) {
-    look({a}, kAll);
-    for (int b = a + 1; b < sensors && sensors > 2; ++b) look({a, b}, kAll);
+    look({a}, kAllMotions);
+    for (int b = a + 1; b < sensors && sensors > 2; ++b) look({a, b}, kAllMotions);
   }
   return grams;
 }
@@ -103,8 +94,9 @@ SectionBends section_bends(const SectionErrors& errors, const MatrixXd& covarian
   out.centre_mm = {std::round(centre.x()), std::round(centre.y())};
   int sensors = 0;
   for (const SectionSample& sample : errors.samples) sensors = std::max(sensors, sample.sensor + 1);
-  const MatrixXd displacements = without(freedom == SectionFreedom::kRigid ? kAll : kShiftAlong,
-                                         errors.section, errors.jacobian * symmetric_root(covariance));
+  const MatrixXd displacements =
+      without_rigid_motion(errors.section, errors.jacobian * symmetric_root(covariance),
+                           freedom == SectionFreedom::kRigid ? kAllMotions : kShiftAlong);
   const MatrixXd basis = basis_of(out, errors.section, errors.samples, sensors);
   const MatrixXd coefficients = solve_least_squares(basis, displacements);
   const std::vector<MatrixXd> looks = looks_at(errors, basis * coefficients, sensors, freedom);
@@ -119,6 +111,14 @@ SectionBends section_bends(const SectionErrors& errors, const MatrixXd& covarian
     out.bends.push_back(rounded(coefficients * eigen.vectors.col(left - 1)));
   }
   return out;
+}
+
+SectionBends section_bends(const SessionViews& session, const JointAdjustment& adjustment,
+                           const SectionErrors& errors, const Eigen::Vector3d& up) {
+  if (session.motion != MotionType::kRotary)
+    return section_bends(errors, adjustment.covariance, SectionFreedom::kRigid);
+  return section_bends(axial_section_errors(adjustment, up, errors.samples), adjustment.covariance,
+                       SectionFreedom::kAlongAxis);
 }
 
 }  // namespace lightstripe

@@ -213,7 +213,7 @@ SectionErrors axial_section_errors(const JointAdjustment& adjustment, const Eige
   return out;
 }
 
-MatrixXd rigid_motions(const VectorXd& section) {
+MatrixXd without_rigid_motion(const VectorXd& section, const MatrixXd& displacements, RigidMotions motions) {
   const Eigen::Index n = section.size() / 2;
   const Eigen::Map<const Eigen::Matrix2Xd> points(section.data(), 2, n);
   const Eigen::Vector2d mean = points.rowwise().mean();
@@ -222,17 +222,13 @@ MatrixXd rigid_motions(const VectorXd& section) {
     const Eigen::Vector2d p = points.col(i) - mean;
     rigid.middleRows<2>(2 * i) << 1, 0, -p.y(), 0, 1, p.x();
   }
-  return orthonormal_basis(rigid);
-}
-
-MatrixXd without_rigid_motion(const VectorXd& section) {
-  const MatrixXd basis = rigid_motions(section);
-  return MatrixXd::Identity(section.size(), section.size()) - basis * basis.transpose();
+  const MatrixXd basis = orthonormal_basis(rigid).leftCols(motions);
+  return displacements - basis * (basis.transpose() * displacements);
 }
 
 SectionUncertainty section_uncertainty(const SectionErrors& errors, const MatrixXd& covariance) {
   if (!errors.known()) return {};
-  const MatrixXd shape = without_rigid_motion(errors.section) * errors.jacobian;
+  const MatrixXd shape = without_rigid_motion(errors.section, errors.jacobian);
   const auto rms = [&](const MatrixXd& of) {
     return std::sqrt((of * covariance).cwiseProduct(of).sum() / static_cast<double>(errors.samples.size()));
   };

@@ -81,12 +81,17 @@ enum class SectionFreedom { kRigid, kAlongAxis };
 /// the other rail. None where too few stripe points were used.
 SectionBends section_bends(const SectionErrors& errors, const Eigen::MatrixXd& covariance,
                            SectionFreedom freedom);
+/// With the freedom of the session's kind of motion. `errors`: see section_errors().
+SectionBends section_bends(const SessionViews& session, const JointAdjustment& adjustment,
+                           const SectionErrors& errors, const Eigen::Vector3d& up);
 
-/// Orthogonal projector that takes the rigid motions of the section's points (two shifts, one turn) out of a
-/// displacement of all of them; 2n x 2n.
-Eigen::MatrixXd without_rigid_motion(const Eigen::VectorXd& section);
+/// How many of a section's rigid motions are left out: the shift along y or the axis, the other shift, the
+/// turn.
+enum RigidMotions : int { kShiftAlong = 1, kShifts = 2, kAllMotions = 3 };
 
-/// The orthonormal basis of these motions, 2n x 3.
-Eigen::MatrixXd rigid_motions(const Eigen::VectorXd& section);
+/// Displacements of all points of the section (2n x k) less the first `motions` rigid motions that fit each
+/// of them best.
+Eigen::MatrixXd without_rigid_motion(const Eigen::VectorXd& section, const Eigen::MatrixXd& displacements,
+                                     RigidMotions motions = kAllMotions);
 
 }  // namespace lightstripe

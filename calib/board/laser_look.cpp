@@ -8,7 +8,6 @@
 #include <optional>
 
 #include "calib/board/board_edges.h"
-#include "calib/board/board_map.h"
 #include "calib/observations.h"
 #include "core/linear_algebra.h"
 
@@ -100,12 +99,12 @@ std::optional<double> share_brighter(ImageView8 image, const std::vector<StripeP
 }  // namespace
 
 std::string no_laser_because(ImageView8 image, const std::vector<StripePoint>& line,
-                             const std::vector<Vector2d>& corners, const Target& target) {
+                             const std::vector<Vector2d>& corners, const BoardMap& map,
+                             const Target& target) {
   constexpr double kMost = 0.5;  // of the points
-  const auto map = fit_board_map(corners, target);
-  if (!map || line.size() < 2) return "";
+  if (line.size() < 2) return "";
   std::vector<Vector2d> on_board;
-  for (const auto& p : line) on_board.push_back((*map)({p.x, p.y}));
+  for (const auto& p : line) on_board.push_back(map({p.x, p.y}));
   if (along_the_border(on_board, target))
     return "the line runs along the pattern's border: it looks like the board's rim, not like a laser";
   if (target.type != TargetType::kCheckerboard) return "";

@@ -9,7 +9,6 @@
 #include <cstdint>
 #include <limits>
 
-#include "calib/board/board_map.h"
 #include "core/random.h"
 #include "core/robust.h"
 #include "extraction/image/background.h"
@@ -197,13 +196,10 @@ double square_px(const BoardMap& map, const Target& target) {
 
 }  // namespace
 
-std::optional<Image8> light_without_print(ImageView8 image, const std::vector<Vector2d>& corners,
-                                          const Target& target) {
-  if (target.type != TargetType::kCheckerboard) return std::nullopt;
-  const auto map = fit_board_map(corners, target);
-  if (!map || square_px(*map, target) < kMinSquarePx) return std::nullopt;
+std::optional<Image8> light_without_print(ImageView8 image, const BoardMap& map, const Target& target) {
+  if (target.type != TargetType::kCheckerboard || square_px(map, target) < kMinSquarePx) return std::nullopt;
   SquareGrid grid = grid_of(target);
-  const PixelPlaces places = places_of(image, *map, target, grid);
+  const PixelPlaces places = places_of(image, map, target, grid);
   measure_levels(image, places, grid);
   const std::vector<float> rest = rest_of(image, places, grid), noise = noise_like(rest);
   Image8 light(image.width, image.height);

@@ -207,24 +207,31 @@ std::string why_no_line(const std::vector<Stripe>& stripes, const std::vector<Pl
       counted(anywhere, "point"));
 }
 
-}  // namespace
+/// A board as one picture shows it.
+struct BoardInPicture {
+  const std::vector<Vector2d>& corners;
+  const Target& target;
+  std::optional<BoardMap> map;  ///< nothing where the corners span no board
+};
 
-StripeOnBoard select_stripes(const std::vector<Stripe>& stripes, const std::vector<Vector2d>& corners,
-                             const Target& target, int laser_planes) {
+BoardInPicture board_in_picture(const std::vector<Vector2d>& corners, const Target& target) {
   LIGHTSTRIPE_CHECK(static_cast<int>(corners.size()) == target.num_corners(),
                     "every corner of the board is needed");
+  return {corners, target, fit_board_map(corners, target)};
+}
+
+StripeOnBoard select_on(const BoardInPicture& board, const std::vector<Stripe>& stripes, int laser_planes) {
   StripeOnBoard result;
-  const auto map = fit_board_map(corners, target);
-  if (!map) {
+  if (!board.map) {
     result.reason = "the corners span no board";
     return result;
   }
-  auto points = on_board(stripes, *map, target);
+  auto points = on_board(stripes, *board.map, board.target);
   for (int i = 0; i < laser_planes; ++i) {
     const auto chosen = best_line(points);
     if (chosen.empty()) {
       result.reason = i > 0 ? fmt::format("{} of {} on the board", i, counted(laser_planes, "stripe"))
-                            : why_no_line(stripes, points, *map, target);
+                            : why_no_line(stripes, points, *board.map, board.target);
       result.planes.clear();
       return result;
     }
@@ -241,19 +248,17 @@ StripeOnBoard select_stripes(const std::vector<Stripe>& stripes, const std::vect
   return result;
 }
 
-namespace {
-
 std::vector<Stripe> lines_on_pattern(ImageView8 image, ExtractionOptions extraction) {
   extraction.on_pattern = true;
   return extract_stripes(image, extraction).stripes;
 }
 
 /// The stripe in `light`, which is `image` or its laser light: the line must look like a laser's.
-StripeOnBoard find_laser_line(ImageView8 light, ImageView8 image, const std::vector<Vector2d>& corners,
-                              const Target& target, int laser_planes, const ExtractionOptions& extraction) {
-  StripeOnBoard result = select_stripes(lines_on_pattern(light, extraction), corners, target, laser_planes);
+StripeOnBoard find_laser_line(ImageView8 light, ImageView8 image, const BoardInPicture& board,
+                              int laser_planes, const ExtractionOptions& extraction) {
+  StripeOnBoard result = select_on(board, lines_on_pattern(light, extraction), laser_planes);
   for (const auto& line : result.planes) {
-    const std::string why = no_laser_because(image, line, corners, target);
+    const std::string why = no_laser_because(image, line, board.corners, *board.map, board.target);
     if (why.empty()) continue;
     result.planes.clear();
     result.reason = why;
@@ -264,28 +269,34 @@ StripeOnBoard find_laser_line(ImageView8 light, ImageView8 image, const std::vec
 
 /// Board and stripe in one picture. Among light squares a stripe is no more than short pieces, and less than
 /// the print's own contrast: it is looked for without the print first.
-StripeOnBoard find_in_one_picture(ImageView8 image, const std::vector<Vector2d>& corners,
-                                  const Target& target, int laser_planes,
+StripeOnBoard find_in_one_picture(ImageView8 image, const BoardInPicture& board, int laser_planes,
                                   const ExtractionOptions& extraction) {
-  if (const auto light = light_without_print(image, corners, target)) {
-    StripeOnBoard result = find_laser_line(light->view(), image, corners, target, laser_planes, extraction);
+  const auto light = board.map ? light_without_print(image, *board.map, board.target) : std::nullopt;
+  if (light) {
+    StripeOnBoard result = find_laser_line(light->view(), image, board, laser_planes, extraction);
     if (result.reason.empty()) return result;
   }
-  return find_laser_line(image, image, corners, target, laser_planes, extraction);
+  return find_laser_line(image, image, board, laser_planes, extraction);
 }
 
 }  // namespace
 
+StripeOnBoard select_stripes(const std::vector<Stripe>& stripes, const std::vector<Vector2d>& corners,
+                             const Target& target, int laser_planes) {
+  return select_on(board_in_picture(corners, target), stripes, laser_planes);
+}
+
 StripeOnBoard find_stripe_in_light(ImageView8 light, const std::vector<Vector2d>& corners,
                                    const Target& target, int laser_planes,
                                    const ExtractionOptions& extraction) {
-  return find_laser_line(light, light, corners, target, laser_planes, extraction);
+  return find_laser_line(light, light, board_in_picture(corners, target), laser_planes, extraction);
 }
 
 StripeOnBoard find_stripe_on_board(ImageView8 laser, ImageView8 board, const std::vector<Vector2d>& corners,
                                    const Target& target, int laser_planes,
                                    const ExtractionOptions& extraction) {
-  if (board.empty()) return find_in_one_picture(laser, corners, target, laser_planes, extraction);
+  const BoardInPicture seen = board_in_picture(corners, target);
+  if (board.empty()) return find_in_one_picture(laser, seen, laser_planes, extraction);
   StripeOnBoard result;
   if (board.width != laser.width || board.height != laser.height) {
     result.reason = fmt::format("the laser image has {} x {} pixels, the board image {} x {}", laser.width,
@@ -298,11 +309,9 @@ StripeOnBoard find_stripe_on_board(ImageView8 laser, ImageView8 board, const std
         "the board moved by {:.1f} px between the picture without laser and that with it", *shift);
     return result;
   }
-  result =
-      select_stripes(lines_on_pattern(laser_light(laser, board), extraction), corners, target, laser_planes);
+  result = select_on(seen, lines_on_pattern(laser_light(laser, board), extraction), laser_planes);
   if (!result.planes.empty()) return result;
-  const auto swapped =
-      select_stripes(lines_on_pattern(laser_light(board, laser), extraction), corners, target, laser_planes);
+  const auto swapped = select_on(seen, lines_on_pattern(laser_light(board, laser), extraction), laser_planes);
   if (!swapped.planes.empty() && swapped.reason.empty())
     result.reason = "the laser line is in the picture under `board`: swap the patterns of board and laser";
   return result;

@@ -65,7 +65,7 @@ void correct_stretch(std::span<StripePoint> points, double sigma, double shared_
     for (std::size_t k = 0; k < count; ++k) {
       points[first + k].x += a.x + static_cast<double>(k) * dx;
       points[first + k].y += a.y + static_cast<double>(k) * dy;
-      errors[first + k] = error;
+      errors[first + k] = std::hypot(errors[first + k], error);
     }
   }
 }
@@ -73,10 +73,10 @@ void correct_stretch(std::span<StripePoint> points, double sigma, double shared_
 }  // namespace
 
 void correct_curvature_bias(const DerivativeKernels& kernels, LineSet& lines, BendWorkspace& workspace) {
-  lines.bend_errors.assign(lines.points.size(), 0.0F);
+  lines.systematic.resize(lines.points.size(), 0.0F);
   for (const LineRange& r : lines.lines) {
     const std::span<StripePoint> line(lines.points.data() + r.begin, r.size());
-    const std::span<float> errors(lines.bend_errors.data() + r.begin, r.size());
+    const std::span<float> errors(lines.systematic.data() + r.begin, r.size());
     for (std::size_t begin = 0; begin < line.size();) {
       const std::size_t end = joined_end(line, begin);
       correct_stretch(line.subspan(begin, end - begin), kernels.sigma, r.shared_px, workspace,
@@ -84,17 +84,6 @@ void correct_curvature_bias(const DerivativeKernels& kernels, LineSet& lines, Be
       begin = end;
     }
   }
-}
-
-void add_bend_errors(LineSet& lines) {
-  if (lines.bend_errors.size() != lines.points.size()) return;  // bends were not corrected
-  for (const LineRange& r : lines.lines)
-    for (std::size_t i = r.begin; i < r.end; ++i) {
-      const double error{lines.bend_errors[i]};
-      if (error > 0.1 * lines.points[i].sigma_px)
-        lines.points[i].sigma_px =
-            std::sqrt(lines.points[i].sigma_px * lines.points[i].sigma_px + error * error);
-    }
 }
 
 }  // namespace lightstripe

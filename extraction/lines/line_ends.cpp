@@ -2,91 +2,172 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "extraction/lines/line_ends.h"
 
+#include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <optional>
+#include <limits>
+#include <numbers>
 #include <span>
 
-#include "core/robust.h"
+#include "extraction/lines/light_end.h"
+#include "extraction/lines/local_fit.h"
 
 namespace lightstripe {
 namespace {
 
-/// Strength, as a share of that further in, from which on a point of a square end is as good as any.
-constexpr double kWhole = 0.9;
-/// 1-sigma shift of the centre at an end, px: a stripe cut off at 45 degrees is off by this where half the
-/// strength is left, a square end by 0.15 px.
-constexpr double kEndShift = 1.2;
-/// In sigma; an oblique cut of 45 degrees draws the end of its line 0.8 sigma aside.
-constexpr double kObliqueReach = 1.25;
+/// z of the light's end inside of which points are as good as any: an oblique cut draws them aside by less
+/// than a tenth of what it does to the last one.
+constexpr double kWhole = 3;
+/// Tangent of the angle by which a stripe is cut off obliquely, 1 sigma, before the points have told it.
+constexpr double kUsualCut = 1;
+/// Of the shift that the cut explains: its error.
+constexpr double kShiftError = 0.25;
+/// Line that is looked at, in sigmas of the kernels beyond the disturbed points.
+constexpr double kNarrow = 4, kWide = 8;
+/// z of the first point from which on no end is seen, but noise of the strengths.
+constexpr double kNoEnd = 2.2;
+/// Tangents that are tried: beyond the last one a cut only gets longer.
+constexpr std::array<double, 3> kTangents{0.5, 1, 2};
+/// Strengths agree with an end to some 2 % where neither grain nor shading spoils them.
+constexpr double kStrengthError = 0.02;
+/// Mean square of the misfits over the points' own: a parabola over the wide stretch that is worse is not
+/// used.
+constexpr double kMostMisfit = 1.5;
 
 /// One line seen from one of its ends.
 struct EndView {
   std::span<StripePoint> points;
+  std::span<float> systematic;  ///< LineSet::systematic, of these points; empty: not known
   bool from_back;
 
   std::size_t size() const { return points.size(); }
+  /// What fades before `first` fades as it does there: the end itself is counted otherwise.
+  void continue_systematic(std::size_t first) const {
+    if (systematic.empty()) return;
+    const auto at = [&](std::size_t i) { return from_back ? systematic.size() - 1 - i : i; };
+    for (std::size_t i = 0; i < first; ++i) systematic[at(i)] = first < size() ? systematic[at(first)] : 0.0F;
+  }
   StripePoint& operator[](std::size_t i) const { return points[from_back ? points.size() - 1 - i : i]; }
 };
 
-struct Continuation {
-  double x = 0, y = 0;                ///< px
-  double normal_x = 0, normal_y = 0;  ///< unit, on the side of the points' own normals
-  double sigma = 0;                   ///< px
-};
-
-/// What is known of a line further in than an end disturbs it.
-struct Inside {
-  std::span<const LocalFitPoint> places;  ///< from the end on
-  double sigma_px = 0;                    ///< of each
-  double shared = 1;                      ///< points that share their noise
-  std::size_t narrow = 0, wide = 0;       ///< reaches of the two parabolas
-};
-
-/// The parabolas through the points from `first_good` on, read at `i` before them. The wider one is the
-/// surer, as long as the line is one: what both disagree by is added to its error.
-Continuation continue_line(const Inside& inside, std::size_t i, std::size_t first_good,
-                           const StripePoint& at) {
-  LocalFitter fitter(inside.places);
-  LocalFitPoint near, far;
-  Continuation c;
-  for (const bool wide : {false, true}) {
-    const std::size_t reach = wide ? inside.wide : inside.narrow;
-    const LocalFit fit = fitter.at(first_good + reach, reach);
-    const double offset = static_cast<double>(i) - static_cast<double>(first_good + reach);
-    (wide ? far : near) = {fit.x + offset * (fit.slope_x + 0.5 * offset * fit.second_x),
-                           fit.y + offset * (fit.slope_y + 0.5 * offset * fit.second_y)};
-    const double tangent_x = fit.slope_x + offset * fit.second_x,
-                 tangent_y = fit.slope_y + offset * fit.second_y;
-    const double sign = tangent_x * at.normal_y - tangent_y * at.normal_x > 0 ? 1.0 : -1.0;
-    const double scale = sign / std::max(std::hypot(tangent_x, tangent_y), 1e-9);
-    c = {far.x, far.y, -tangent_y * scale, tangent_x * scale,
-         inside.sigma_px * std::sqrt(inside.shared * local_fit_variance(reach, offset))};
+/// Strengths from the end on, one in a quarter of `spread`.
+std::array<double, kEndSamples> strengths_of(const EndView& end, double spread, double step) {
+  std::array<double, kEndSamples> strengths{};
+  for (std::size_t k = 0; k < kEndSamples; ++k) {
+    const double place = static_cast<double>(k) * spread / (static_cast<double>(kEndSamplesPerSigma) * step);
+    strengths.at(k) = end[std::min(static_cast<std::size_t>(std::lround(place)), end.size() - 1)].strength;
   }
-  const double disagreement = (near.x - far.x) * c.normal_x + (near.y - far.y) * c.normal_y;
-  c.sigma = std::hypot(c.sigma, 0.5 * disagreement);
-  return c;
+  return strengths;
 }
 
-/// From a point to the continuation, along its normal, px.
-double distance_across(const Continuation& c, const StripePoint& p) {
-  return (c.x - p.x) * c.normal_x + (c.y - p.y) * c.normal_y;
+using EndPoint = LineEndWorkspace::Point;
+
+/// The line as a parabola, and the tangent of the cut: a + b u + c u^2 + t shift.
+struct EndFit {
+  Eigen::Vector4d value = Eigen::Vector4d::Zero();
+  Eigen::Matrix4d covariance = Eigen::Matrix4d::Zero();
+  double cost = 0;    ///< squares of the misfits over what is expected of them
+  double misfit = 0;  ///< the same as a mean square over a point's own scatter
+
+  double across(double u) const { return value[0] + u * (value[1] + u * value[2]); }
+  double slope(double u) const { return value[1] + 2 * u * value[2]; }
+  double sigma(double u) const {
+    const Eigen::Vector3d row(1, u, u * u);
+    return std::sqrt(row.dot(covariance.topLeftCorner<3, 3>() * row));
+  }
+};
+
+/// `shared`: points that share their noise. The second pass knows how far the shifts may be wrong.
+EndFit fit_end(std::span<const EndPoint> points, double shared) {
+  EndFit fit;
+  for (int pass = 0; pass < 3; ++pass) {
+    Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();
+    normal(3, 3) = 1 / (kUsualCut * kUsualCut);
+    Eigen::Vector4d right = Eigen::Vector4d::Zero();
+    fit.cost = fit.value[3] * fit.value[3] * normal(3, 3);
+    for (const EndPoint& p : points) {
+      const Eigen::Vector4d row(1, p.u, p.u * p.u, p.shift);
+      const double wrong = kShiftError * fit.value[3] * p.shift;
+      const double weight = 1 / ((p.scatter * p.scatter + wrong * wrong) * shared);
+      const double rest = p.across - row.dot(fit.value);
+      fit.cost += weight * rest * rest;
+      normal += weight * row * row.transpose();
+      right += weight * p.across * row;
+    }
+    if (pass == 2) break;  // the cost alone was wanted
+    fit.covariance = normal.inverse();
+    fit.value = fit.covariance * right;
+  }
+  fit.misfit = fit.cost * shared / static_cast<double>(points.size());
+  return fit;
 }
 
-double median_strength(const EndView& end, std::size_t first, std::size_t count) {
-  double strengths[24];
-  const std::size_t step = 1 + count / 24;
-  std::size_t used = 0;
-  for (std::size_t i = first; i < first + count && used < 24; i += step) strengths[used++] = end[i].strength;
-  return upper_median(std::span(strengths, used));
+/// A cut of one angle, and the line that it leads to.
+struct Hypothesis {
+  LightEnd light;
+  double strength_misfit = 0;
+  std::size_t disturbed = 0;  ///< points
+  EndFit narrow;
+  double cost = 0;
+};
+
+/// -2 log of the probability that a cut has about this tangent, where all angles are equally likely.
+double surprise_of(double tangent) { return tangent < 0.75 ? 1.8 : 3.1; }
+
+double z_of(const LightEnd& light, std::size_t i, double step) {
+  return light.inside + static_cast<double>(i) * step / light.spread();
 }
 
-/// The first point from the end on that is as strong as those further in; nothing where that takes more than
-/// an end does.
-std::optional<std::size_t> first_whole_point(const EndView& end, double whole, std::size_t most) {
-  for (std::size_t i = 0; i <= most; ++i)
-    if (end[i].strength >= whole) return i;
-  return std::nullopt;
+std::array<Hypothesis, kTangents.size()> ends_by_strength(const EndView& end, double sigma, double width,
+                                                          double step) {
+  std::array<Hypothesis, kTangents.size()> all;
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    Hypothesis& h = all.at(k);
+    h.light = {sigma, std::clamp(width / (2 * std::numbers::sqrt3), 0.3, 1.5 * sigma), kTangents.at(k)};
+    const EndOfStrength fit = fit_light_end(h.light, strengths_of(end, h.light.spread(), step));
+    h.light.inside = fit.inside;
+    h.strength_misfit = fit.misfit + kEndSamples * kStrengthError * kStrengthError;
+    const double length = std::max(0.0, kWhole - fit.inside) * h.light.spread() / step;
+    h.disturbed = std::min(static_cast<std::size_t>(std::ceil(length)), end.size() - 1);
+  }
+  return all;
+}
+
+/// A direction in the picture, unit.
+struct Direction {
+  double x = 1, y = 0;
+};
+
+/// What the end does to each of the points, for one angle of the cut.
+void set_influence(const LightEnd& light, double step, double sigma_px, std::span<EndPoint> points) {
+  const EndCurves curves(light);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const EndInfluence influence = curves.at(z_of(light, i, step));
+    points[i].shift = influence.shift;
+    points[i].scatter = sigma_px * influence.scatter;
+  }
+}
+
+/// Moves the disturbed points onto the line that all points together tell.
+void move_points(const EndView& end, const Hypothesis& h, const EndFit& wide,
+                 std::span<const EndPoint> points, Direction along) {
+  const EndFit& line = wide.misfit < kMostMisfit ? wide : h.narrow;
+  const StripePoint& whole = end[h.disturbed];
+  const double side = whole.normal_y * along.x - whole.normal_x * along.y > 0 ? 1.0 : -1.0;
+  for (std::size_t i = 0; i < h.disturbed; ++i) {
+    StripePoint& p = end[i];
+    const double u = points[i].u, by = line.across(u) - points[i].across;
+    p.x -= by * along.y;
+    p.y += by * along.x;
+    const double doubt = 0.5 * (wide.across(u) - h.narrow.across(u));
+    // The shifts of all points are wrong together, which a fit of independent errors does not know.
+    const double wrong = 0.5 * kShiftError * line.value[3] * points[i].shift;
+    p.sigma_px = std::hypot(line.sigma(u), doubt, wrong);
+    const double slope = line.slope(u) / h.light.sigma, scale = side / std::sqrt(1 + slope * slope);
+    p.normal_x = scale * (-along.y - slope * along.x);
+    p.normal_y = scale * (along.x - slope * along.y);
+  }
 }
 
 bool is_joined(const EndView& end, std::size_t count) {
@@ -94,52 +175,67 @@ bool is_joined(const EndView& end, std::size_t count) {
   return joined_end(stretch, 0) == count;
 }
 
-void mend_end(const EndView& end, double sigma, double shared_px, std::vector<LocalFitPoint>& places) {
-  const auto scale = static_cast<std::size_t>(std::ceil(sigma));
-  const std::size_t narrow = 2 * scale, wide = 4 * scale, most = 3 * scale, retreat = 3 * scale;
-  if (end.size() < most + retreat + 2 * wide + 2) return;
-  const double reference = median_strength(end, most, most);
-  const auto whole = first_whole_point(end, kWhole * reference, most);
-  const std::size_t needed = whole.value_or(0) + retreat + 2 * wide + 1;
-  if (!whole || *whole == 0 || !is_joined(end, needed)) return;
-  places.clear();
-  for (std::size_t i = 0; i < needed; ++i) places.push_back({end[i].x, end[i].y});
-  const double dx = places[1].x - places[0].x, dy = places[1].y - places[0].y;
-  const double shared = std::max(1.0, shared_px / std::max(std::hypot(dx, dy), 0.5));
-  const Inside inside{places, end[*whole + narrow].sigma_px, shared, narrow, wide};
-  // An oblique cut draws the line aside before its strength falls: there the points further in do not lead to
-  // it.
-  const Continuation test = continue_line(inside, *whole, *whole + retreat, end[*whole]);
-  const double unexpected = std::abs(distance_across(test, end[*whole]));
-  // It draws it less than kObliqueReach aside; farther off the line bends.
-  const Continuation last = continue_line(inside, 0, *whole + retreat, end[0]);
-  const bool oblique = unexpected > 0.05 && unexpected > 3 * std::hypot(test.sigma, end[*whole].sigma_px) &&
-                       std::abs(distance_across(last, end[0])) < kObliqueReach * sigma;
-  const std::size_t first_good = oblique ? *whole + retreat : *whole;
-  for (std::size_t i = 0; i < first_good; ++i) {
-    StripePoint& p = end[i];
-    const Continuation c = continue_line(inside, i, first_good, p);
-    const double lost =
-        oblique ? 1 - static_cast<double>(i) / static_cast<double>(first_good) : 1 - p.strength / reference;
-    const double sigma_measured = std::hypot(p.sigma_px, kEndShift * lost * lost);
-    const double a = 1 / (sigma_measured * sigma_measured), b = 1 / (c.sigma * c.sigma);
-    const double across = distance_across(c, p) * b / (a + b);
-    p.x += across * c.normal_x;
-    p.y += across * c.normal_y;
-    p.sigma_px = 1 / std::sqrt(a + b);
-    if (!oblique) continue;
-    p.normal_x = c.normal_x;
-    p.normal_y = c.normal_y;
+/// Too little of the line is known to tell how it goes on.
+void widen_errors(const EndView& end, const Hypothesis& h, double sigma_px, double step) {
+  const EndCurves curves(h.light);
+  for (std::size_t i = 0; i < h.disturbed; ++i) {
+    const EndInfluence influence = curves.at(z_of(h.light, i, step));
+    const double scatter = std::max(end[i].sigma_px, sigma_px * influence.scatter);
+    end[i].sigma_px = std::hypot(scatter, kUsualCut * influence.shift);
   }
+}
+
+void mend_end(const EndView& end, double sigma, double shared_px, std::vector<EndPoint>& points) {
+  const auto scale = static_cast<std::size_t>(std::ceil(sigma));
+  if (end.size() < 3 * scale) return;
+  const StripePoint& inner = end[std::min(4 * scale, end.size() - 1)];
+  const double step = std::clamp(std::hypot(end[1].x - end[0].x, end[1].y - end[0].y), 0.5, 1.5);
+  auto all = ends_by_strength(end, sigma, inner.width, step);
+  const auto worse = [](const Hypothesis& a, const Hypothesis& b) {
+    return a.strength_misfit < b.strength_misfit;
+  };
+  const Hypothesis& likeliest = *std::min_element(all.begin(), all.end(), worse);
+  if (likeliest.light.inside >= kNoEnd) return;
+  std::size_t reach = 0;
+  for (const Hypothesis& h : all) reach = std::max(reach, h.disturbed);
+  end.continue_systematic(reach + scale);  // where fading was looked at over undisturbed points
+  const auto narrow_count = reach + static_cast<std::size_t>(kNarrow * sigma / step),
+             count = reach + static_cast<std::size_t>(kWide * sigma / step);
+  if (end.size() <= count || !is_joined(end, count))
+    return widen_errors(end, likeliest, inner.sigma_px, step);
+
+  const StripePoint &origin = end[reach], &ahead = end[std::min(reach + 2 * scale, count)];
+  const double dx = ahead.x - origin.x, dy = ahead.y - origin.y, length = std::max(std::hypot(dx, dy), 1e-9);
+  const Direction along{dx / length, dy / length};
+  points.resize(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const double x = end[i].x - origin.x, y = end[i].y - origin.y;
+    points[i] = {(x * along.x + y * along.y) / sigma, y * along.x - x * along.y, 0, 0};
+  }
+  const double shared = std::max(1.0, shared_px / step);
+  for (Hypothesis& h : all) {
+    const auto first = std::span(points).first(narrow_count);
+    set_influence(h.light, step, inner.sigma_px, first);
+    h.narrow = fit_end(first, shared);
+    // Three or four of the strengths are independent of each other.
+    h.cost = h.narrow.cost + 4 * std::log(h.strength_misfit) + surprise_of(h.light.tangent);
+  }
+  const auto cheaper = [](const Hypothesis& a, const Hypothesis& b) { return a.cost < b.cost; };
+  const Hypothesis& best = *std::min_element(all.begin(), all.end(), cheaper);
+  set_influence(best.light, step, inner.sigma_px, points);
+  move_points(end, best, fit_end(points, shared), points, along);
 }
 
 }  // namespace
 
-void mend_line_ends(const DerivativeKernels& kernels, LineSet& lines, std::vector<LocalFitPoint>& places) {
+void mend_line_ends(const DerivativeKernels& kernels, LineSet& lines, LineEndWorkspace& workspace) {
   for (const LineRange& r : lines.lines) {
     const std::span<StripePoint> line(lines.points.data() + r.begin, r.size());
-    mend_end({line, false}, kernels.sigma, r.shared_px, places);
-    mend_end({line, true}, kernels.sigma, r.shared_px, places);
+    const std::span<float> systematic = lines.systematic.size() == lines.points.size()
+                                            ? std::span(lines.systematic).subspan(r.begin, r.size())
+                                            : std::span<float>{};
+    mend_end({line, systematic, false}, kernels.sigma, r.shared_px, workspace.points);
+    mend_end({line, systematic, true}, kernels.sigma, r.shared_px, workspace.points);
   }
 }
 

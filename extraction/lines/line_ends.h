@@ -8,13 +8,25 @@
 
 #include "extraction/kernels/kernels.h"
 #include "extraction/lines/line_set.h"
-#include "extraction/lines/local_fit.h"
 
 namespace lightstripe {
 
-/// The weaker a point is relative to the interior of the line, the larger its error. Each such point is
-/// averaged with the continuation of the line from further in (a parabola), each weighted by its variance;
-/// sigma_px follows. `places` is scratch memory.
-void mend_line_ends(const DerivativeKernels& kernels, LineSet& lines, std::vector<LocalFitPoint>& places);
+/// Scratch memory.
+struct LineEndWorkspace {
+  /// One of the points that tell how a line goes on.
+  struct Point {
+    double u = 0, across = 0;  ///< along the line from a whole point on, in sigmas of the kernels; px across
+    double shift = 0;          ///< px, by a cut at 45 degrees
+    double scatter = 0;        ///< px, 1 sigma
+  };
+  std::vector<Point> points;
+};
+
+/// Where the strength of a line's last points falls as the light's end lets it (light_end.h), these points
+/// and those further in together tell the line, a parabola, and the tangent of the cut, which has drawn the
+/// last ones aside: a least-squares fit in which each point has its noise, and the shift by the cut its own
+/// error. The disturbed points move onto that line; sigma_px is the fit's. Of a line that is too short for it
+/// only sigma_px grows, by what a cut at 45 degrees does.
+void mend_line_ends(const DerivativeKernels& kernels, LineSet& lines, LineEndWorkspace& workspace);
 
 }  // namespace lightstripe

@@ -22,14 +22,14 @@ struct LineSet {
   std::vector<StripePoint> points;
   std::vector<LineRange> lines;
   std::vector<float>
-      half_level_widths;           ///< px, one a point once they are measured: full width at half the peak
-  std::vector<float> bend_errors;  ///< px, 1 sigma, one a point once bends are corrected: of that correction
+      half_level_widths;          ///< px, one a point once they are measured: full width at half the peak
+  std::vector<float> systematic;  ///< px, 1 sigma, one a point once known: what neighbours share, not scatter
 
   void clear() {
     points.clear();
     lines.clear();
     half_level_widths.clear();
-    bend_errors.clear();
+    systematic.clear();
   }
 };
 

@@ -155,6 +155,10 @@ Camera kalibr_camera(const YamlNode& root, const std::string& name, const YamlPl
     set_distortion(camera, numbers(*terms, place), place);
   if (const YamlNode* size = find(node, {"resolution"})) {
     const auto sides = numbers(*size, place);
+    constexpr double kLargestSide = 1e6;  // px
+    for (const double side : sides)
+      if (!(side >= 1 && side <= kLargestSide && side == std::floor(side)))
+        throw Error(place.file, "has a resolution that is no picture's", "give width and height in px");
     if (sides.size() == 2)
       camera.width = static_cast<int>(sides[0]), camera.height = static_cast<int>(sides[1]);
   }

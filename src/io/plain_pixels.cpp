@@ -82,8 +82,12 @@ class TiffDirectory {
     if (entries > 1024) return std::nullopt;
     at += big_tiff_ ? 8 : 2;
     TiffFacts facts;
-    for (std::uint64_t i = 0; i < entries; ++i, at += size)
-      if (!take(at, facts)) return std::nullopt;
+    // Tags rise, says TIFF 6.0; which of two alike counts is the library's to say.
+    for (std::uint64_t i = 0, last = 0; i < entries; ++i, at += size) {
+      const std::uint64_t tag = in_.u16(at);
+      if (tag <= last || !take(at, facts)) return std::nullopt;
+      last = tag;
+    }
     return in_.beyond_end ? std::nullopt : std::optional(facts);
   }
 

@@ -7,6 +7,7 @@
 #include <cctype>
 
 #include "io/number_text.h"
+#include "io/utf8.h"
 #include "io/yaml_binding.h"
 #include "io/yaml_node.h"
 
@@ -21,21 +22,6 @@ bool safe_character(char c) {
   constexpr std::string_view kSafe = " _-./*+@%=()^";
   const auto byte = static_cast<unsigned char>(c);
   return byte >= 0x80 || std::isalnum(byte) != 0 || kSafe.find(c) != std::string_view::npos;
-}
-
-/// Bytes of the UTF-8 character at `at`; 0 where there is none.
-std::size_t character_length(std::string_view text, std::size_t at) {
-  const auto lead = static_cast<unsigned char>(text[at]);
-  const std::size_t length = lead < 0x80   ? 1
-                             : lead < 0xC2 ? 0
-                             : lead < 0xE0 ? 2
-                             : lead < 0xF0 ? 3
-                             : lead < 0xF5 ? 4
-                                           : 0;
-  if (length == 0 || text.size() - at < length) return 0;
-  for (std::size_t i = 1; i < length; ++i)
-    if ((static_cast<unsigned char>(text[at + i]) & 0xC0U) != 0x80) return 0;
-  return length;
 }
 
 /// How a character beyond ASCII has to be escaped: those that YAML takes for line breaks, control characters,
@@ -55,7 +41,7 @@ std::string escape_of(std::string_view character, std::size_t length) {
 /// Whether a character beyond ASCII may not stand as it is.
 bool needs_escape(std::string_view text) {
   for (std::size_t at = 0; at < text.size();) {
-    const std::size_t length = character_length(text, at);
+    const std::size_t length = utf8_length(text, at);
     if (length != 1 && !escape_of(text.substr(at, std::max<std::size_t>(length, 1)), length).empty())
       return true;
     at += std::max<std::size_t>(length, 1);
@@ -74,7 +60,7 @@ bool safe_plain(std::string_view text) {
 std::string quoted_text(std::string_view text) {
   std::string out = "\"";
   for (std::size_t at = 0; at < text.size();) {
-    const std::size_t length = character_length(text, at), step = std::max<std::size_t>(length, 1);
+    const std::size_t length = utf8_length(text, at), step = std::max<std::size_t>(length, 1);
     const char c = text[at];
     const auto byte = static_cast<unsigned char>(c);
     if (c == '"' || c == '\\') {

@@ -14,6 +14,7 @@
 
 #include "core/error.h"
 #include "io/atomic_file.h"
+#include "io/utf8.h"
 #include "io/yaml_node.h"
 
 namespace lightstripe::detail {
@@ -144,24 +145,6 @@ bool is_indented_by_tab(const std::string& text, int line) {
   if (looks_like_pattern) what_to_do = "put a text that begins with * in quotes";
   if (is_indented_by_tab(text, line)) what_to_do = "indent by blanks, not by tabs";
   fail_at(place, line, "is not valid YAML (" + error.msg + ")", what_to_do);
-}
-
-/// RFC 3629: lead bytes with their number of continuation bytes; overlong forms and surrogates pass, they do
-/// no harm.
-bool is_utf8(const std::string& text) {
-  int expected = 0;
-  for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    const bool continues = (byte & 0xC0) == 0x80;
-    if (continues != (expected > 0)) return false;
-    if (continues)
-      --expected;
-    else if (byte >= 0xF8)
-      return false;
-    else
-      expected = byte >= 0xF0 ? 3 : byte >= 0xE0 ? 2 : byte >= 0xC0 ? 1 : 0;
-  }
-  return expected == 0;
 }
 
 /// Number of the first line that is too long, 0 without one.

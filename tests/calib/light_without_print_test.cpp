@@ -26,6 +26,10 @@ const Plane kLaser = [] {
   return Plane{n, n.dot(Eigen::Vector3d(0, 2, 550))};
 }();
 
+BoardMap map_of(const Rigid3& pose) {
+  return fit_board_map(true_corners(kCamera, kBoard, pose), kBoard).value();
+}
+
 struct Rest {
   double mean = 0, rms = 0;
 };
@@ -46,7 +50,7 @@ TEST(LightWithoutPrint, LeavesTheNoiseOfABoardWithoutLaser) {
   for (const double blur_px : {0.6, 1.2, 2.0}) {
     const Rigid3 pose = board_pose(kBoard, {0, 0, 550}, 20, 25, 15);
     const Image8 picture = testing::render_board(kCamera, kBoard, pose, {.blur_px = blur_px}, 1);
-    const auto light = light_without_print(picture, true_corners(kCamera, kBoard, pose), kBoard);
+    const auto light = light_without_print(picture, map_of(pose), kBoard);
     ASSERT_TRUE(light);
     const Rest rest = rest_of(*light);
     EXPECT_LT(rest.rms, 2.5) << blur_px;
@@ -61,7 +65,7 @@ TEST(LightWithoutPrint, KeepsTheLaserOnLightAndDarkSquares) {
   const std::vector<Plane> lasers{kLaser};
   const Image8 with = testing::render_board(kCamera, kBoard, pose, look, 1, lasers);
   const Image8 without = testing::render_board(kCamera, kBoard, pose, look, 2);
-  const auto light = light_without_print(with, true_corners(kCamera, kBoard, pose), kBoard);
+  const auto light = light_without_print(with, map_of(pose), kBoard);
   ASSERT_TRUE(light);
   double sum = 0;
   int lit = 0;
@@ -79,13 +83,12 @@ TEST(LightWithoutPrint, KeepsTheLaserOnLightAndDarkSquares) {
 
 TEST(LightWithoutPrint, RefusesOtherTargetsAndTinySquares) {
   const Rigid3 pose = board_pose(kBoard, {0, 0, 550}, 12, 20, 0);
-  const auto corners = true_corners(kCamera, kBoard, pose);
   Target circles = kBoard;
   circles.type = TargetType::kCircles;
-  EXPECT_FALSE(light_without_print(Image8(960, 700, 10), corners, circles));
+  EXPECT_FALSE(light_without_print(Image8(960, 700, 10), map_of(pose), circles));
   std::vector<Eigen::Vector2d> tiny;
-  for (const auto& corner : corners) tiny.emplace_back(corner / 10);
-  EXPECT_FALSE(light_without_print(Image8(960, 700, 10), tiny, kBoard));
+  for (const auto& corner : true_corners(kCamera, kBoard, pose)) tiny.emplace_back(corner / 10);
+  EXPECT_FALSE(light_without_print(Image8(960, 700, 10), fit_board_map(tiny, kBoard).value(), kBoard));
 }
 
 TEST(FindStripeOnBoard, FindsALineThatIsFainterThanThePrint) {

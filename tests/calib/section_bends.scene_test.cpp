@@ -7,7 +7,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "calib/adjust/joint_adjustment.h"
+#include "calib/adjust/session_views.h"
 #include "calib/calibrate_rig.h"
+#include "calib/start/initial_values.h"
 #include "section_error.h"
 
 namespace lightstripe {
@@ -33,6 +36,25 @@ struct Trial {
   std::vector<SectionSample> samples;
   VectorXd section, error;
   SectionBends bends;
+
+  /// Only what the bends are made of: all that calibrate_rig() finds out besides takes as long again.
+  template <class Scene>
+  Trial(const Scene& scene, const CalibrationObservations& observations)
+      : samples(testing::samples_of(scene.rig, observations)) {
+    const InitialValues start = initial_values(prepare_session_views(observations));
+    const JointAdjustment found = adjust_jointly(start.session, start.state, lenses(scene.rig), options());
+    section = scene.section(found.state, samples);
+    error = section - scene.section(scene.state(), samples);
+    bends = section_bends(start.session, found, section_errors(start.session, found, kUp), kUp);
+  }
+  static CalibrationOptions options() {
+    CalibrationOptions out;
+    out.lens = LensModel::kBrown4;
+    return out;
+  }
+  static std::vector<LensModel> lenses(const SyntheticRig& rig) {
+    return std::vector<LensModel>(rig.sensors.size(), LensModel::kBrown4);
+  }
 
   /// `form`: of the displacements, one after the other.
   void count(const VectorXd& form, Tally& tally) const {
@@ -66,7 +88,7 @@ struct Trial {
       if (samples[i].sensor >= first && samples[i].sensor <= last)
         for (const Eigen::Index axis : {0, 1}) rows.push_back(2 * static_cast<Eigen::Index>(i) + axis);
     VectorXd out = form;
-    out(rows) = without_rigid_motion(section(rows)) * form(rows);
+    out(rows) = without_rigid_motion(section(rows), form(rows));
     return out;
   }
   /// The value of a coordinate (0: y or u, 1: z or v) above which `share` of the sensors' samples lie.
@@ -84,46 +106,27 @@ struct Trial {
 constexpr int kRepeats = 30;
 constexpr double kLow = 0.6, kHigh = 1.6;
 
+/// Hands the trial of every repeat to `count`.
+template <class Scene, class Count>
+void repeat(const Scene& scene, std::uint64_t first_seed, const Count& count) {
+  for (int i = 0; i < kRepeats; ++i) {
+    const auto observations = scene.observe(first_seed + static_cast<std::uint64_t>(i));
+    const Trial trial(scene, observations);
+    if (i == 0) {
+      const auto result = calibrate_rig(observations, Trial::options());
+      ASSERT_TRUE(result.summary.usable) << result.summary.message;
+      EXPECT_EQ(result.rig.quality.section_bends->bends, trial.bends.bends);
+    }
+    count(trial);
+    ::testing::Test::RecordProperty("bends", static_cast<int>(trial.bends.bends.size()));
+  }
+}
+
 void expect_right(const Tally& tally, const std::string& what) {
   ::testing::Test::RecordProperty(what, std::to_string(tally.ratio()));
   EXPECT_GT(tally.ratio(), kLow) << what;
   EXPECT_LT(tally.ratio(), kHigh) << what;
 }
-
-// ---- a track
-
-/// A board so long that the sensors over both rails see an end of it; a pair of sensors over each rail.
-struct Track {
-  SyntheticRig rig = rail_rig(2, 4);
-  Eigen::Quaterniond facing;  ///< of a board that faces the first pair
-  Vector3d across;            ///< from the first pair to the second
-  static constexpr double kApartMm = 1436;
-
-  Track() {
-    rig.target.type = TargetType::kCharuco;  // a part of it is enough
-    rig.target.marker_mm = 7;
-    rig.target.columns = 170;
-    const Vector3d normal = rig.sensors[1].laser_planes.front().normal;
-    facing = Eigen::AngleAxisd(-0.5 * 55 * testing::kDegree, normal);
-    const Vector3d x = facing * Vector3d::UnitX();
-    across = (x - rig.direction * rig.direction.dot(x)).normalized();
-    for (SensorState sensor : rail_rig(2, 9).sensors) {
-      sensor.cam_from_first.translation -= sensor.cam_from_first.rotation * (kApartMm * across);
-      rig.sensors.push_back(sensor);
-    }
-  }
-
-  /// Its middle `at` mm along `across`, tilted by up to these degrees about its length and against it.
-  Rigid3 board(double at, double tilt_deg, double slant_deg, Random& random) const {
-    const double t = tilt_deg * testing::kDegree, s = slant_deg * testing::kDegree;
-    const Eigen::Quaterniond q = facing * Eigen::AngleAxisd(random.uniform(-t, t), Vector3d::UnitX()) *
-                                 Eigen::AngleAxisd(random.uniform(-s, s), Vector3d::UnitY()) *
-                                 Eigen::AngleAxisd(random.uniform(-s, s), Vector3d::UnitZ());
-    const Vector3d centre = at * across + Vector3d(random.uniform(-20, 20), random.uniform(-25, 25),
-                                                   rig.range_mm + random.uniform(-40, 40));
-    return {q, centre - q * Vector3d(rig.target.middle().x(), rig.target.middle().y(), 0)};
-  }
-};
 
 /// With what lies in the image.
 BoardView view_of(const SyntheticRig& rig, std::size_t s, const Rigid3& first_from_board,
@@ -150,35 +153,74 @@ BoardView view_of(const SyntheticRig& rig, std::size_t s, const Rigid3& first_fr
   return view;
 }
 
-/// Each pair's own poses, poses that both pairs see, and the travel.
-CalibrationObservations observe_track(const Track& track, std::uint64_t seed) {
+// ---- a track
+
+/// A board so long that the sensors over both rails see an end of it; a pair of sensors over each rail.
+struct Track {
+  SyntheticRig rig = rail_rig(2, 4);
+  Eigen::Quaterniond facing;  ///< of a board that faces the first pair
+  Vector3d across;            ///< from the first pair to the second
+  static constexpr double kApartMm = 1436;
+
+  Track() {
+    rig.target.type = TargetType::kCharuco;  // a part of it is enough
+    rig.target.marker_mm = 7;
+    rig.target.columns = 170;
+    const Vector3d normal = rig.sensors[1].laser_planes.front().normal;
+    facing = Eigen::AngleAxisd(-0.5 * 55 * testing::kDegree, normal);
+    const Vector3d x = facing * Vector3d::UnitX();
+    across = (x - rig.direction * rig.direction.dot(x)).normalized();
+    for (SensorState sensor : rail_rig(2, 9).sensors) {
+      sensor.cam_from_first.translation -= sensor.cam_from_first.rotation * (kApartMm * across);
+      rig.sensors.push_back(sensor);
+    }
+  }
+
+  RigState state() const { return state_of(rig); }
+  VectorXd section(const RigState& state, const std::vector<SectionSample>& samples) const {
+    return section_of(state, MotionType::kLinear, kUp, samples);
+  }
+  /// Each pair's own poses, poses that both pairs see, and the travel.
+  CalibrationObservations observe(std::uint64_t seed) const;
+  /// Its middle `at` mm along `across`, tilted by up to these degrees about its length and against it.
+  Rigid3 board(double at, double tilt_deg, double slant_deg, Random& random) const {
+    const double t = tilt_deg * testing::kDegree, s = slant_deg * testing::kDegree;
+    const Eigen::Quaterniond q = facing * Eigen::AngleAxisd(random.uniform(-t, t), Vector3d::UnitX()) *
+                                 Eigen::AngleAxisd(random.uniform(-s, s), Vector3d::UnitY()) *
+                                 Eigen::AngleAxisd(random.uniform(-s, s), Vector3d::UnitZ());
+    const Vector3d centre = at * across + Vector3d(random.uniform(-20, 20), random.uniform(-25, 25),
+                                                   rig.range_mm + random.uniform(-40, 40));
+    return {q, centre - q * Vector3d(rig.target.middle().x(), rig.target.middle().y(), 0)};
+  }
+};
+
+CalibrationObservations Track::observe(std::uint64_t seed) const {
   constexpr int kOwn = 12, kCommon = 8;
-  const SyntheticRig& rig = track.rig;
   const SessionOptions options;
   Random random(seed, 21);
   CalibrationObservations out;
   out.target = rig.target;
   for (std::size_t s = 0; s < rig.sensors.size(); ++s)
     out.sensors.push_back({"s" + std::to_string(s), 960, 700, 1, {}, {}});
-  const auto show = [&](const Rigid3& board, std::size_t first, std::size_t last, const std::string& pose) {
+  const auto show = [&](const Rigid3& shown, std::size_t first, std::size_t last, const std::string& pose) {
     for (std::size_t s = first; s <= last; ++s) {
-      BoardView view = view_of(rig, s, board, options);
+      BoardView view = view_of(rig, s, shown, options);
       view.pose = pose, view.image = out.sensors[s].name + "_" + pose;
       testing::add_noise(view, options, random);
       out.sensors[s].views.push_back(view);
     }
   };
   for (int i = 0; i < kOwn; ++i) {
-    show(track.board(0, 32, 32, random), 0, 1, "left_" + std::to_string(i));
-    show(track.board(Track::kApartMm, 32, 32, random), 2, 3, "right_" + std::to_string(i));
+    show(board(0, 32, 32, random), 0, 1, "left_" + std::to_string(i));
+    show(board(kApartMm, 32, 32, random), 2, 3, "right_" + std::to_string(i));
   }
   for (int i = 0; i < kCommon; ++i)
-    show(track.board(Track::kApartMm / 2, 30, 2, random), 0, 3, "both_" + std::to_string(i));
+    show(board(kApartMm / 2, 30, 2, random), 0, 3, "both_" + std::to_string(i));
   MotionObservations& motion = out.motion.emplace();
-  const Rigid3 board = track.board(0, 10, 10, random);
+  const Rigid3 still = board(0, 10, 10, random);
   for (int i = 0; i < options.travel_steps; ++i) {
     const double travel = options.travel_mm * (i / (options.travel_steps - 1.0) - 0.5);
-    Rigid3 moved = board;
+    Rigid3 moved = still;
     moved.translation -= travel * rig.direction;
     BoardView view = view_of(rig, 0, moved, options);
     view.stripes.clear();
@@ -190,17 +232,8 @@ CalibrationObservations observe_track(const Track& track, std::uint64_t seed) {
 }
 
 TEST(SectionBendsOfATrack, TellTheGaugeAndEachRailsOwnShape) {
-  const Track track;
-  CalibrationOptions options;
-  options.lens = LensModel::kBrown4;
   Tally gauge, left_top, right_top;
-  for (int i = 0; i < kRepeats; ++i) {
-    const auto observations = observe_track(track, static_cast<std::uint64_t>(300 + i));
-    const auto result = calibrate_rig(observations, options);
-    ASSERT_TRUE(result.summary.usable) << result.summary.message;
-    Trial trial{testing::samples_of(track.rig, observations), {}, {}, *result.rig.quality.section_bends};
-    trial.section = section_of(state_of(result.rig), MotionType::kLinear, kUp, trial.samples);
-    trial.error = trial.section - section_of(state_of(track.rig), MotionType::kLinear, kUp, trial.samples);
+  repeat(Track(), 300, [&](const Trial& trial) {
     const auto left = [](int sensor, double, double) { return sensor < 2; };
     const auto right = [](int sensor, double, double) { return sensor >= 2; };
     Eigen::Vector2d apart(
@@ -214,8 +247,7 @@ TEST(SectionBendsOfATrack, TellTheGaugeAndEachRailsOwnShape) {
       trial.count(trial.laid_on(trial.mean({0, 1}, top), first, first + 1),
                   first == 0 ? left_top : right_top);
     }
-    ::testing::Test::RecordProperty("bends", static_cast<int>(trial.bends.bends.size()));
-  }
+  });
   expect_right(gauge, "gauge");
   expect_right(left_top, "left_top");
   expect_right(right_top, "right_top");
@@ -237,20 +269,24 @@ struct Stand {
     out.motion->direction = axis, out.motion->axis_point = point;
     return out;
   }
+  VectorXd section(const RigState& state, const std::vector<SectionSample>& samples) const {
+    return axial_section_of(state, kUp, samples);
+  }
+  CalibrationObservations observe(std::uint64_t seed) const;
 };
 
-CalibrationObservations observe_stand(const Stand& stand, std::uint64_t seed) {
+CalibrationObservations Stand::observe(std::uint64_t seed) const {
   const SessionOptions options{.seed = seed};
-  CalibrationObservations out = testing::observe(stand.rig, options);
+  CalibrationObservations out = testing::observe(rig, options);
   MotionObservations& motion = *out.motion;
   motion.type = MotionType::kRotary, motion.moves = Moves::kObject;
   motion.views.clear(), motion.travel.clear();
   Random random(seed, 22);
-  const Rigid3 board = testing::visible_board(stand.rig, {.max_tilt_deg = 5}, random);
+  const Rigid3 board = testing::visible_board(rig, {.max_tilt_deg = 5}, random);
   for (const double angle : {-4.0, -2.0, 0.0, 2.0, 4.0}) {
-    const Eigen::Quaterniond turn(Eigen::AngleAxisd(angle * testing::kDegree, stand.axis));
-    const Rigid3 turned = Rigid3{turn, stand.point - turn * stand.point} * board;
-    BoardView view = view_of(stand.rig, 0, turned, options);
+    const Eigen::Quaterniond turn(Eigen::AngleAxisd(angle * testing::kDegree, axis));
+    const Rigid3 turned = Rigid3{turn, point - turn * point} * board;
+    BoardView view = view_of(rig, 0, turned, options);
     view.stripes.clear();
     view.image = "turned_" + std::to_string(angle);
     testing::add_noise(view, options, random);
@@ -259,29 +295,11 @@ CalibrationObservations observe_stand(const Stand& stand, std::uint64_t seed) {
   return out;
 }
 
-/// The calibrated rig with its axis, in the first camera's frame.
-RigState state_with_axis(const Rig& rig) {
-  RigState out = state_of(rig);
-  const Rigid3 first_from_rig = rig.sensors[0].rig_from_camera.inverse();
-  out.motion->direction = first_from_rig.rotation * rig.motion.axis_direction;
-  out.motion->axis_point = first_from_rig * rig.motion.axis_point;
-  return out;
-}
-
 // The radius, and what a turn of the section does to a flange's height over the tread: neither is free where
 // radii are measured.
 TEST(SectionBendsOfATurningRig, TellTheRadiusAndHeightsAlongTheAxis) {
-  const Stand stand;
-  CalibrationOptions options;
-  options.lens = LensModel::kBrown4;
   Tally radius, flange, shape;
-  for (int i = 0; i < kRepeats; ++i) {
-    const auto observations = observe_stand(stand, static_cast<std::uint64_t>(500 + i));
-    const auto result = calibrate_rig(observations, options);
-    ASSERT_TRUE(result.summary.usable) << result.summary.message;
-    Trial trial{testing::samples_of(stand.rig, observations), {}, {}, *result.rig.quality.section_bends};
-    trial.section = axial_section_of(state_with_axis(result.rig), kUp, trial.samples);
-    trial.error = trial.section - axial_section_of(stand.state(), kUp, trial.samples);
+  repeat(Stand(), 500, [&](const Trial& trial) {
     const auto all = [](int, double, double) { return true; };
     const double far = trial.upper(0, 0.1, 0, 1), near = trial.upper(0, 0.9, 0, 1);
     const VectorXd height = trial.mean({0, 1}, [&](int, double u, double) { return u > far; }) -
@@ -291,8 +309,7 @@ TEST(SectionBendsOfATurningRig, TellTheRadiusAndHeightsAlongTheAxis) {
     const double high = trial.upper(1, 0.1, 0, 1);
     const auto top = [&](int, double, double v) { return v > high; };
     trial.count(trial.laid_on(trial.mean({0, 1}, top), 0, 1), shape);
-    ::testing::Test::RecordProperty("bends", static_cast<int>(trial.bends.bends.size()));
-  }
+  });
   expect_right(radius, "radius");
   expect_right(flange, "flange");
   expect_right(shape, "shape");

@@ -43,14 +43,13 @@ TEST(SectionBends, AreWhatCalibrationsErrBy) {
     const auto samples = testing::samples_of(truth, observations);
     const Eigen::VectorXd known = section_of(testing::state_of(truth), MotionType::kLinear, up, samples),
                           found = section_of(state_of(result.rig), MotionType::kLinear, up, samples);
-    const Eigen::MatrixXd P = without_rigid_motion(known);
     double highest = -1e9;
     for (Eigen::Index k = 1; k < known.size(); k += 2) highest = std::max(highest, known(k));
     Eigen::VectorXd upper_end = Eigen::VectorXd::Zero(known.size());
     for (Eigen::Index k = 1; k < known.size(); k += 2) upper_end(k) = known(k) > highest - 20 ? 1 : 0;
-    upper_end = P * upper_end / upper_end.sum();
+    upper_end = without_rigid_motion(known, upper_end / upper_end.sum());
     height += std::pow(upper_end.dot(found - known), 2);
-    shape += (P * (found - known)).squaredNorm();
+    shape += without_rigid_motion(known, found - known).squaredNorm();
     for (std::size_t b = 0; b < result.rig.quality.section_bends->bends.size(); ++b) {
       const Eigen::VectorXd by = displaced(*result.rig.quality.section_bends, b, found, samples);
       predicted_height += std::pow(upper_end.dot(by), 2);

@@ -53,7 +53,7 @@ inline SectionError section_error(const RigState& found, const SyntheticRig& tru
   const Eigen::VectorXd a = section_of(found, MotionType::kLinear, {0, -1, 0}, samples);
   const Eigen::VectorXd b = section_of(state_of(truth), MotionType::kLinear, {0, -1, 0}, samples);
   const double n = std::sqrt(static_cast<double>(samples.size()));
-  return {(a - b).norm() / n, (without_rigid_motion(b) * (a - b)).norm() / n};
+  return {(a - b).norm() / n, without_rigid_motion(b, a - b).norm() / n};
 }
 
 }  // namespace lightstripe::testing

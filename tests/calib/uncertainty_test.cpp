@@ -14,10 +14,13 @@ TEST(WithoutRigidMotion, TakesOutShiftsAndTurnsOnly) {
   turn << 5, -5, 5, 5, -5, 5, -5, -5;  // (-(y - 5), x - 5) of the points
   turn *= -1;
   stretch << -5, -5, 5, -5, 5, 5, -5, 5;
-  const Eigen::MatrixXd P = without_rigid_motion(section);
-  EXPECT_LT((P * shift).norm(), 1e-12);
-  EXPECT_LT((P * turn).norm(), 1e-12);
-  EXPECT_LT((P * stretch - stretch).norm(), 1e-12);
+  EXPECT_LT(without_rigid_motion(section, shift).norm(), 1e-12);
+  EXPECT_LT(without_rigid_motion(section, turn).norm(), 1e-12);
+  EXPECT_LT((without_rigid_motion(section, stretch) - stretch).norm(), 1e-12);
+  EXPECT_LT((without_rigid_motion(section, turn, kShifts) - turn).norm(), 1e-12);
+  EXPECT_LT(
+      (without_rigid_motion(section, shift, kShiftAlong) - Eigen::Vector2d(0, -2).replicate(4, 1)).norm(),
+      1e-12);
 }
 
 }  // namespace

@@ -72,6 +72,27 @@ TEST(PlainPixels, ACutFileIsLeftToTheDecoderWhichSaysWhy) {
   }
 }
 
+// Found by libFuzzer: of two alike tags the library takes the first, and the other one was looked at.
+TEST(PlainPixels, ADirectoryThatNamesATagTwiceIsLeftToTheDecoder) {
+  const TempFolder folder;
+  const auto path = folder / "a.tif";
+  cv::imwrite(path.string(), noise(64, 48), {cv::IMWRITE_TIFF_COMPRESSION, 1});
+  ASSERT_EQ(differing_pixels(path), 0);
+  std::fstream file(path, std::ios::in | std::ios::out | std::ios::binary);
+  std::string bytes(8, '\0');
+  file.read(bytes.data(), 8);
+  ASSERT_EQ(bytes.substr(0, 4), std::string("II*\0", 4));
+  const auto directory = static_cast<unsigned char>(bytes[4]) + 256 * static_cast<unsigned char>(bytes[5]) +
+                         65536 * static_cast<unsigned char>(bytes[6]);
+  // The second entry, the height, gets the first one's tag.
+  file.seekg(directory + 2);
+  file.read(bytes.data(), 2);
+  file.seekp(directory + 2 + 12);
+  file.write(bytes.data(), 2);
+  file.close();
+  EXPECT_FALSE(map_picture(path, Channel::kGray));
+}
+
 TEST(PlainPixels, PagesOfATiffAreSeenWhereTheyLie) {
   const TempFolder folder;
   const std::vector<cv::Mat> pages = {noise(32, 24), noise(32, 24) / 2};

@@ -172,8 +172,7 @@ TEST(Conicity, PredictedSigmaIsTheErrorOfRepeats) {
 // The values of an own, independent calculation; see docs/conformance.md.
 TEST(Conicity, OfS1002On60E1FollowsTheGauge) {
   const std::vector<Vector2d> rail = upper("60E1", std::atan(0.025), -40, 40, 1);
-  const RollingProfile on = exact(rail, *gauge_face_of(rail, 0.094, 14)),
-                       wheel = exact(upper("S1002", 0, -50, 55, -1));
+  const RollingProfile on = exact(rail, *gauge_face_of(rail, 0.094, 14)), wheel = s1002_wheel();
   for (const auto& [gauge, expected] : {std::pair{1433.0, 0.202}, {1435.0, 0.174}, {1437.0, 0.143}}) {
     ConicityOptions options;
     options.gauge_mm = gauge;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "io/nominal_outlines.h"
+#include "measure/conicity.h"
 
 namespace lightstripe {
 
@@ -23,6 +24,11 @@ inline std::vector<Eigen::Vector2d> upper(const char* name, double turn_rad, dou
   }
   std::sort(out.begin(), out.end(), [](const Vector2d& a, const Vector2d& b) { return a.x() < b.x(); });
   return out;
+}
+
+/// The part of an S1002 that rolls.
+inline RollingProfile s1002_wheel() {
+  return {"S1002", RunningSurface::exact(upper("S1002", 0, -50, 55, -1)), 0, 0};
 }
 
 }  // namespace lightstripe

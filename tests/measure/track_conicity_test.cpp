@@ -24,10 +24,7 @@ constexpr double kHalfMm = 753.033;  // so that the gauge is 1435
 class TrackConicity : public ::testing::Test {
  protected:
   const ReferenceShape reference{"60E1", ObjectKind::kRail, read_nominal("60E1")};
-  ReferenceWheelset wheelset = [] {
-    const RollingProfile wheel{"S1002", RunningSurface::exact(upper("S1002", 0, -50, 55, -1)), 0, 0};
-    return ReferenceWheelset{{wheel, wheel}, {}};
-  }();
+  ReferenceWheelset wheelset{{s1002_wheel(), s1002_wheel()}, {}};
 
   struct Rails {
     Section left, right;
