@@ -17,7 +17,15 @@ double gaussian_integral(double x, double sigma) { return 0.5 * std::erf(x / (si
 double gaussian(double x, double sigma) {
   return std::exp(-0.5 * x * x / (sigma * sigma)) / (sigma * std::sqrt(2.0 * std::numbers::pi));
 }
-double gaussian_slope(double x, double sigma) { return -x / (sigma * sigma) * gaussian(x, sigma); }
+
+/// The Gaussian, its integral and its slope at the edge of a pixel.
+struct PixelEdge {
+  double integral = 0, value = 0, slope = 0;
+};
+PixelEdge edge_at(double x, double sigma) {
+  const double value = gaussian(x, sigma);
+  return {gaussian_integral(x, sigma), value, -x / (sigma * sigma) * value};
+}
 
 struct Moments {
   double sum = 0, first = 0, second = 0;
@@ -49,13 +57,16 @@ struct KernelTriple {
 /// sigma is made good on polynomials: constants, ramps and parabolas give exactly their own derivatives.
 KernelTriple shifted_kernels(const std::vector<double>& u, double sigma, double reach) {
   KernelTriple k;
+  // What one pixel ends with the next one begins with: u goes up by one, and by whole parts of it.
+  PixelEdge a = edge_at(u.front() - 0.5, sigma);
   for (const double d : u) {
     // The last pixel fades, so that nothing jumps when the kernel is shifted.
     const double fade = std::clamp(reach - std::abs(d), 0.0, 1.0);
-    const double a = d - 0.5, b = d + 0.5;
-    k.smooth.push_back(fade * (gaussian_integral(b, sigma) - gaussian_integral(a, sigma)));
-    k.slope.push_back(fade * (gaussian(a, sigma) - gaussian(b, sigma)));
-    k.curvature.push_back(fade * (gaussian_slope(b, sigma) - gaussian_slope(a, sigma)));
+    const PixelEdge b = edge_at(d + 0.5, sigma);
+    k.smooth.push_back(fade * (b.integral - a.integral));
+    k.slope.push_back(fade * (a.value - b.value));
+    k.curvature.push_back(fade * (b.slope - a.slope));
+    a = b;
   }
   scale(k.smooth, 1.0 / moments(k.smooth, u).sum);
   add(k.slope, -moments(k.slope, u).sum, k.smooth);
