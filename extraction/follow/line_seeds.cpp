@@ -22,17 +22,19 @@ int row_step(double sigma) { return sigma < 1 ? 1 : std::clamp(static_cast<int>(
 /// The columns taken in a row, every so many from the offset on: as sparse as the rows, and staggered, so
 /// that lines along the columns are met.
 struct ColumnPattern {
-  int step, offset;
+  int step, offset;  ///< step: a power of two, so that remainders need no division
   std::uint64_t bits() const {
     const std::uint64_t first = step == 1 ? ~0ULL : step == 2 ? 0x5555555555555555ULL : 0x0101010101010101ULL;
     return first << offset;
   }
-  int first_from(int x) const { return x + (offset - x % step + step) % step; }
+  int first_from(int x) const { return x + ((offset - x) & (step - 1)); }
+  /// The same pattern counted from `x` on.
+  ColumnPattern from(int x) const { return {step, (offset - x) & (step - 1)}; }
 };
 
 ColumnPattern column_pattern(int rows, int row_number) {
   const int step = rows == 1 ? 1 : rows == 2 ? 2 : 8;
-  return {step, row_number % step};
+  return {step, row_number & (step - 1)};
 }
 
 template <class T>
@@ -131,8 +133,7 @@ void candidates_of_span(const ScanRow<T>& row, int width, const ScanRule<T>& sca
   const ScanRow<T> part{row.centre + seen.begin, row.above + seen.begin, row.below + seen.begin};
   const int length = seen.end - seen.begin;
   // The pattern counts from the row's begin, the masks from the part's.
-  const ColumnPattern shifted{pattern.step,
-                              (pattern.offset - seen.begin % pattern.step + pattern.step) % pattern.step};
+  const ColumnPattern shifted = pattern.from(seen.begin);
   T* contrasts = contrasts_of<T>(w).data();
   if (mark_candidates(part, length, scan, w.candidate_masks.data(), contrasts))
     for (int word = 0; word < (length + 63) / 64; ++word)
@@ -153,9 +154,13 @@ class SeedCells {
   void begin_row(int y) {
     if (y >> shift_ == row_) return;
     row_ = y >> shift_;
-    std::fill(w_.in_cell.begin(), w_.in_cell.end(), 0U);
+    // Most rows hold nothing that would have to be cleared.
+    if (is_used_) std::fill(w_.in_cell.begin(), w_.in_cell.end(), 0U);
+    is_used_ = false;
   }
   void add(const LineSeed& seed) {
+    if (shift_ == 0) return w_.found.push_back(seed);  // no pixel is met twice
+    is_used_ = true;
     std::uint32_t& place = w_.in_cell[static_cast<std::size_t>(seed.x >> shift_)];
     if (place == 0) {
       w_.found.push_back(seed);
@@ -167,6 +172,7 @@ class SeedCells {
 
  private:
   int shift_, row_ = 0;
+  bool is_used_ = false;  ///< some cell of the row holds a seed
   SeedWorkspace& w_;
 };
 

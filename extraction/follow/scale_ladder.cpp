@@ -9,6 +9,7 @@
 #include "extraction/follow/line_point.h"
 #include "extraction/image/noise.h"
 #include "extraction/kernels/kernels_scan.h"
+#include "extraction/lines/ranked_value.h"
 
 namespace lightstripe {
 namespace {
@@ -246,7 +247,7 @@ double grain_of_line(std::span<const StripePoint> points, double sigma, double n
     strength += middle;
   }
   strength /= static_cast<double>(scratch.size());
-  const double seen = kSecondDifferenceToSigma * double{upper_median(scratch)};
+  const double seen = kSecondDifferenceToSigma * double{ranked_median(scratch)};
   return seen > kClear * noise ? std::sqrt(seen * seen - noise * noise) / strength : 0.0;
 }
 

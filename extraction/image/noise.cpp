@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <cstdlib>
+#include <type_traits>
 
 #include "core/robust.h"
 #include "extraction/image/sampled_pieces.h"
@@ -19,11 +19,13 @@ template <class T>
 struct DifferenceCounts {
   static constexpr int kFine = sizeof(T) == 1 ? 512 : 2048, kCoarse = 64,
                        kBins = sizeof(T) == 1 ? kFine : 2 * kFine;
-  using Table = std::array<std::uint32_t, kBins>;
-  /// Two tables, because neighbouring differences are often equal and would wait for each other's increment.
+  using Table = std::array<std::uint32_t, kBins + 1>;
+  /// Two tables, because neighbouring differences are often equal and would wait for each other's increment;
+  /// each begins with the triples that have a clipped pixel.
   Table even{}, odd{};
-  std::uint64_t total = 0;    ///< triples without a clipped pixel
-  std::uint64_t clipped = 0;  ///< triples with one
+  std::uint64_t total = 0;  ///< triples
+  std::uint64_t clipped() const { return std::uint64_t{even[0]} + odd[0]; }
+  std::uint64_t unclipped() const { return total - clipped(); }
 
   static int bin(int difference) {
     return difference < kFine ? difference : kFine + (difference - kFine) / kCoarse;
@@ -35,30 +37,42 @@ struct DifferenceCounts {
   }
 };
 
+/// Second differences of `count` triples, the first of which begins at `at`; -1 where a pixel is clipped.
+/// Plain enough for the compiler to make vectors of it.
+template <class T, class Difference>
+void take_differences(const T* at, int count, Difference* out) {
+  for (int k = 0; k < count; ++k) {
+    const Difference left = at[k], centre = at[k + 1], right = at[k + 2];
+    const auto difference = static_cast<Difference>(left + right - 2 * centre);
+    const Difference magnitude = difference < 0 ? static_cast<Difference>(-difference) : difference;
+    const Difference least = std::min(left, std::min(centre, right));
+    out[k] = least == 0 ? Difference{-1} : magnitude;
+  }
+}
+
 template <class T>
 void count_differences(const T* pixels, int length, DifferenceCounts<T>& c) {
-  const auto count = [&](int x, auto& table) {
-    const int left = pixels[x - 1], centre = pixels[x], right = pixels[x + 1];
-    const bool clipped = left == 0 || centre == 0 || right == 0;
-    c.clipped += clipped ? 1U : 0U;
-    table[static_cast<std::size_t>(DifferenceCounts<T>::bin(std::abs(left - 2 * centre + right)))] +=
-        clipped ? 0U : 1U;
-  };
-  int x = 1;
-  for (; x + 2 < length; x += 2) {
-    count(x, c.even);
-    count(x + 1, c.odd);
+  constexpr int kChunk = 32;
+  using Difference = std::conditional_t<sizeof(T) == 1, std::int16_t, std::int32_t>;
+  std::array<Difference, kChunk> differences{};
+  for (int first = 0; first + 2 < length; first += kChunk) {
+    const int count = std::min(kChunk, length - 2 - first);
+    take_differences(pixels + first, count, differences.data());
+    for (int k = 0; k < count; ++k) {
+      auto& table = k % 2 == 0 ? c.even : c.odd;
+      ++table[static_cast<std::size_t>(1 +
+                                       DifferenceCounts<T>::bin(differences[static_cast<std::size_t>(k)]))];
+    }
   }
-  if (x + 1 < length) count(x, c.even);
   if (length > 2) c.total += static_cast<std::uint64_t>(length - 2);
 }
 
 template <class T>
 double median_difference(const DifferenceCounts<T>& c) {
-  const double half = 0.5 * static_cast<double>(c.total);
+  const double half = 0.5 * static_cast<double>(c.unclipped());
   double below = 0;
   for (int bin = 0; bin < DifferenceCounts<T>::kBins; ++bin) {
-    const auto k = static_cast<std::size_t>(bin);
+    const auto k = static_cast<std::size_t>(bin + 1);
     const double count = c.even[k] + c.odd[k];
     if (count > 0 && below + count >= half) {
       const double begin = DifferenceCounts<T>::begin(bin), end = DifferenceCounts<T>::begin(bin + 1);
@@ -79,11 +93,11 @@ NoiseEstimate estimate_noise(ImageView<T> image, int thinning) {
   DifferenceCounts<T> c;
   for_sampled_pieces(image, thinning,
                      [&](const T* pixels, int length) { count_differences(pixels, length, c); });
-  c.total -= c.clipped;
-  if (c.total == 0) return {kQuantisation, kQuantisation};
+  if (c.unclipped() == 0) return {kQuantisation, kQuantisation};
   const double sigma = median_difference(c) * kSecondDifferenceToSigma;
-  const double full = c.clipped > c.total ? sigma / kHalfNormal : sigma;
-  const double seen = c.clipped > c.total ? full * kClippedNormal : full;
+  const bool is_half = c.clipped() > c.unclipped();
+  const double full = is_half ? sigma / kHalfNormal : sigma;
+  const double seen = is_half ? full * kClippedNormal : full;
   return {std::max(kQuantisation, seen), std::max(kQuantisation, full)};
 }
 

@@ -8,12 +8,19 @@
 namespace lightstripe {
 namespace {
 
-/// Mean of three pixels around `index`, moved inside the line.
+/// Sum of three pixels around `index`, moved inside the line, which has as many.
 template <class T>
-double mean_of_three(const PixelLine<T>& line, int index) {
-  if (line.count < 3) return line[std::clamp(index, 0, line.count - 1)];
+inline auto sum_of_three(const PixelLine<T>& line, int index) {
   const T* at = line.first + std::clamp(index, 1, line.count - 2) * line.step;
-  return static_cast<double>(at[-line.step] + at[0] + at[line.step]) * (1.0 / 3.0);
+  return at[-line.step] + at[0] + at[line.step];
+}
+
+/// The lower mean of three pixels of those around two places: sums are compared, which are whole numbers.
+template <class T>
+inline double lower_mean(const PixelLine<T>& line, int a, int b) {
+  if (line.count >= 3)
+    return static_cast<double>(std::min(sum_of_three(line, a), sum_of_three(line, b))) * (1.0 / 3.0);
+  return std::min(line[std::clamp(a, 0, line.count - 1)], line[std::clamp(b, 0, line.count - 1)]);
 }
 
 /// What a grey value has to reach to be above a level: whole grey values are compared as such, which is
@@ -62,8 +69,8 @@ CrossProfile measure_profile(PixelLine<T> line, double centre, int reach) {
   p.top = 0.25 * (before + 2 * at + after);
   p.brightest = std::max({before, at, after});
   const int near = std::max(2, reach * 2 / 3);
-  p.background_left = std::min(mean_of_three(line, c - reach), mean_of_three(line, c - near));
-  p.background_right = std::min(mean_of_three(line, c + reach), mean_of_three(line, c + near));
+  p.background_left = lower_mean(line, c - reach, c - near);
+  p.background_right = lower_mean(line, c + reach, c + near);
   const T* start = line.first + c * line.step;
   const auto flank = [&](int direction, int pixels, double background) {
     const double height = p.top - background;

@@ -233,6 +233,7 @@ void add_to_line(ImageView<T> image, double sigma, std::span<StripePoint> points
   const double scatter = scatter_of(w.asides, w.scatter);
   for (std::size_t k = 0; k < stretches; ++k) {
     const double shift = std::min(sigma, kShiftByDisagreement * clear_shift(w.asides, k, scatter, w.scatter));
+    if (shift == 0) continue;
     for (StripePoint& p : points.subspan(begin_of(k), begin_of(k + 1) - begin_of(k))) {
       if (shift > p.sigma_px && shift > 0.05) p.flags |= kStripeAsymmetric;
       p.sigma_px = std::hypot(p.sigma_px, shift);

@@ -7,11 +7,11 @@
 #include <cmath>
 #include <limits>
 
-#include "core/robust.h"
 #include "extraction/follow/bridge.h"
 #include "extraction/image/background.h"
 #include "extraction/kernels/width_rule.h"
 #include "extraction/lines/line_measure.h"
+#include "extraction/lines/ranked_value.h"
 
 namespace lightstripe {
 namespace {
@@ -159,7 +159,7 @@ void mend_or_cut(Trial& t, LineSet& lines, const LineRange& whole) {
   const auto margin = static_cast<std::size_t>(std::lround(t.kernels.sigma));
   const auto least_run = static_cast<std::size_t>(std::lround(1.5 * t.full_width));
   find_bad_stretches(t, lines, r, least_run, t.w.stretches);
-  const double width = median_width(t, lines, r);
+  const double width = t.w.stretches.empty() ? 0 : median_width(t, lines, r);
   std::size_t begin = r.begin;
   for (const BadStretch& bad : t.w.stretches) {
     const bool other_light = is_other_light(t, bad);
@@ -192,7 +192,7 @@ double typical_intensity(Trial& t, const LineSet& lines, const LineRange& r) {
   for (std::size_t i = r.begin; i < r.end; i += sample_step(r))
     if ((lines.points[i].flags & kStripeBridged) == 0) t.w.scratch.push_back(lines.points[i].intensity);
   if (t.w.scratch.empty()) return 0;
-  return value_at_rank(t.w.scratch, t.w.scratch.size() * 3 / 4);
+  return ranked_value(t.w.scratch, t.w.scratch.size() * 3 / 4);
 }
 
 /// Median over the line of the smaller over the larger drop from the ridge to both sides.

@@ -7,9 +7,9 @@
 #include <cmath>
 #include <limits>
 
-#include "core/robust.h"
 #include "extraction/kernels/width_rule.h"
 #include "extraction/lines/cross_profile.h"
+#include "extraction/lines/ranked_value.h"
 
 namespace lightstripe {
 namespace {
@@ -123,9 +123,9 @@ void measure_singly(ImageView<T> image, double sigma, double full_width, double 
 
 }  // namespace
 
-double median_of(std::vector<float>& values) {
+double median_of(const std::vector<float>& values) {
   if (values.empty()) return 0;
-  return upper_median(values);
+  return ranked_median(values);
 }
 
 template <class T>

@@ -275,9 +275,8 @@ double common_grain(std::span<const RowDifferences> lines) {
   const auto add_misfits = [&](std::size_t first, std::size_t end) {
     for (const RowDifferences& line : lines) {
       if (line.rows == 0) continue;
-      const LagValues white = expected_differences(kIndependent * line.step, line.sigma, line.step);
       for (std::size_t i = first; i < end; ++i)
-        misfits.at(i) += line.rows * shares_of(line, white, grains.px.at(i)).misfit;
+        misfits.at(i) += line.rows * shares_of(line, line.white, grains.px.at(i)).misfit;
     }
   };
   const double tolerance = kToleranceOfWhite + kToleranceOfAnother * (count - 1);
@@ -327,6 +326,7 @@ RowDifferences look_at_rows(ImageView<T> image, const DerivativeKernels& kernels
     if (!(line.seen.at(k) > 0)) return line;
   }
   line.rows = static_cast<double>(w.squares.size());
+  line.white = expected_differences(kIndependent * line.step, line.sigma, line.step);
   line.white_factor = view.white_over_speckle(cosine);
   return line;
 }
@@ -337,9 +337,8 @@ CommonScatter common_scatter(std::span<const RowDifferences> lines) {
   double rows = 0, variance = 0;
   for (const RowDifferences& line : lines) {
     if (line.rows == 0) continue;
-    const LagValues white = expected_differences(kIndependent * line.step, line.sigma, line.step);
     rows += line.rows;
-    variance += line.rows * shares_of(line, white, common.grain_px).grained / line.sigma;
+    variance += line.rows * shares_of(line, line.white, common.grain_px).grained / line.sigma;
   }
   common.grain_per_px = variance / rows;
   return common;
@@ -351,8 +350,7 @@ RowScatter fit_scatter(const RowDifferences& line, const CommonScatter& common) 
   scatter.rows = line.rows;
   if (common.grain_px > 0) scatter.grain_px = common.grain_px;
   if (line.rows > 0) {
-    const LagValues white = expected_differences(scatter.row_px, line.sigma, line.step);
-    const TwoShares shares = shares_of(line, white, common.grain_px);
+    const TwoShares shares = shares_of(line, line.white, common.grain_px);
     const double grained = common.grain_px > 0 ? shares.grained : 0.0;
     scatter.white_variance =
         line.white_factor * (shares.white + (common.grain_px > 0 ? 0.0 : shares.grained));

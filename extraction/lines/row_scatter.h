@@ -37,11 +37,12 @@ struct RowScatter {
 struct RowDifferences {
   static constexpr std::size_t kLags = 6;
   std::array<double, kLags>
-      seen{};               ///< px^2: a sixth of the mean squared second difference, 1, 2 ... rows apart
-  double rows = 0;          ///< that were looked at; 0: too few
-  double sigma = 1;         ///< px, of the kernels
-  double step = 1;          ///< px along the line from row to row
-  double white_factor = 1;  ///< of an independent variance, for rows that cross the line obliquely
+      seen{};  ///< px^2: a sixth of the mean squared second difference, 1, 2 ... rows apart
+  std::array<double, kLags> white{};  ///< what independent rows of variance 1 would show there
+  double rows = 0;                    ///< that were looked at; 0: too few
+  double sigma = 1;                   ///< px, of the kernels
+  double step = 1;                    ///< px along the line from row to row
+  double white_factor = 1;            ///< of an independent variance, for rows that cross the line obliquely
 };
 
 /// Scratch memory.
