@@ -172,7 +172,7 @@ void refuse_wrong_unit(const SessionViews& session, const JointAdjustment& adjus
     const double depth = median_depth_mm(session, adjustment.state, s);
     if (depth > kNear_mm && depth < kFar_mm) continue;
     throw NotUsable(fmt::format(
-        "sensor {}: squares of {:.4g} mm put the boards {:.2g} mm from the camera; did you give {}? The "
+        "sensor {}: squares of {:.4g} mm put the boards {:.3g} mm from the camera; did you give {}? The "
         "target "
         "is described in mm; where it is right, declare the measuring range (calibration.range_near_mm, "
         "range_far_mm)",
