@@ -193,7 +193,8 @@ void widen_errors(const EndView& end, const Hypothesis& h, double sigma_px, doub
   }
 }
 
-void mend_end(const EndView& end, double sigma, double shared_px, std::vector<EndPoint>& points) {
+void mend_end(const EndView& end, double sigma, double shared_px, EndsOnPrint on_print,
+              std::vector<EndPoint>& points) {
   const auto scale = static_cast<std::size_t>(std::ceil(sigma));
   if (end.size() < 3 * scale) return;
   const StripePoint& inner = end[std::min(4 * scale, end.size() - 1)];
@@ -209,7 +210,7 @@ void mend_end(const EndView& end, double sigma, double shared_px, std::vector<En
   end.continue_systematic(reach + scale);  // where fading was looked at over undisturbed points
   const auto narrow_count = reach + static_cast<std::size_t>(kNarrow * sigma / step),
              count = reach + static_cast<std::size_t>(kWide * sigma / step);
-  if (end.size() <= count || !is_joined(end, count))
+  if (on_print == EndsOnPrint::kYes || end.size() <= count || !is_joined(end, count))
     return widen_errors(end, likeliest, inner.sigma_px, step);
 
   const StripePoint &origin = end[reach], &ahead = end[std::min(reach + 2 * scale, count)];
@@ -237,7 +238,7 @@ void mend_end(const EndView& end, double sigma, double shared_px, std::vector<En
 
 }  // namespace
 
-void mend_line_ends(const DerivativeKernels& kernels, PictureSize size, LineSet& lines,
+void mend_line_ends(const DerivativeKernels& kernels, PictureSize size, EndsOnPrint on_print, LineSet& lines,
                     LineEndWorkspace& workspace) {
   // Beyond the border the kernels see the last row again: the light does not end there.
   const auto inside = [&](const StripePoint& p) {
@@ -251,8 +252,9 @@ void mend_line_ends(const DerivativeKernels& kernels, PictureSize size, LineSet&
                                             : std::span<float>{};
     if (line.empty()) continue;
     if (inside(line.front()))
-      mend_end({line, systematic, false}, kernels.sigma, r.shared_px, workspace.points);
-    if (inside(line.back())) mend_end({line, systematic, true}, kernels.sigma, r.shared_px, workspace.points);
+      mend_end({line, systematic, false}, kernels.sigma, r.shared_px, on_print, workspace.points);
+    if (inside(line.back()))
+      mend_end({line, systematic, true}, kernels.sigma, r.shared_px, on_print, workspace.points);
   }
 }
 

@@ -22,6 +22,9 @@ struct LineEndWorkspace {
   std::vector<Point> points;
 };
 
+/// Whether the line runs over print, which makes its strength tell less of its end: then no point is moved.
+enum class EndsOnPrint { kNo, kYes };
+
 /// px
 struct PictureSize {
   int width = 0, height = 0;
@@ -32,7 +35,7 @@ struct PictureSize {
 /// last ones aside: a least-squares fit in which each point has its noise, and the shift by the cut its own
 /// error. The disturbed points move onto that line; sigma_px is the fit's. Of a line that is too short for it
 /// only sigma_px grows, by what a cut at 45 degrees does.
-void mend_line_ends(const DerivativeKernels& kernels, PictureSize size, LineSet& lines,
+void mend_line_ends(const DerivativeKernels& kernels, PictureSize size, EndsOnPrint on_print, LineSet& lines,
                     LineEndWorkspace& workspace);
 
 }  // namespace lightstripe
