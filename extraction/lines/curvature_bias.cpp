@@ -12,25 +12,46 @@ namespace lightstripe {
 namespace {
 
 constexpr std::size_t kLeastReach = 2;  // nodes to both sides
+constexpr double kSure = 0.95;          // trust in a parabola from which on no longer one is asked
 /// Of a point's correction: its error. The parabola sees the mean bend over 6 sigma of line, and a clipped
 /// stripe is no Gaussian; measured on sine-shaped lines with kernels of 4 to 10 px.
 constexpr double kCorrectionError = 0.2;
 
-/// The way from a smoothed node to the true line. `sigma_px`: the node's own error, which it shares with its
-/// neighbours over `shared_px` along the line.
-LocalFitPoint shift_of(const LocalFit& fit, double curvature_gain, double sigma, double sigma_px,
-                       double shared_px) {
+/// The way from a smoothed node to the true line, as one parabola sees it.
+struct Shift {
+  double x = 0, y = 0;  ///< px
+  double trust = 0;     ///< 0 to 1: how far it stands out of the noise
+};
+
+/// `sigma_px`: the node's own error, which it shares with its neighbours over `shared_px` along the line.
+Shift shift_of(const LocalFit& fit, double curvature_gain, double sigma, double sigma_px, double shared_px) {
   const double half_variance = 0.5 * (sigma * sigma + 1.0 / 12);
   const double shared = std::max(1.0, shared_px / std::sqrt(fit.squared_step));
   const double error = sigma_px * curvature_gain / fit.squared_step, variance = error * error * shared;
   const double square = fit.curvature_x * fit.curvature_x + fit.curvature_y * fit.curvature_y;
   if (square <= 0) return {};
-  const double weight = square / (square + 9 * variance);
   // A bend sharper than the kernel is a corner, where the series behind the formula ends.
   const double size = half_variance * std::sqrt(square), limit = 0.25 * sigma;
-  const double shift = weight * half_variance * (size > limit ? limit / size : 1.0);
-  return {-shift * fit.curvature_x, -shift * fit.curvature_y};
+  const double shift = half_variance * (size > limit ? limit / size : 1.0);
+  return {-shift * fit.curvature_x, -shift * fit.curvature_y, square / (square + 9 * variance)};
 }
+
+/// Parabolas over nodes, of one reach after another.
+class ShiftFinder {
+ public:
+  ShiftFinder(std::span<const LocalFitPoint> nodes, double sigma, double shared_px)
+      : fitter_(nodes), sigma_(sigma), shared_px_(shared_px) {}
+
+  Shift at(std::size_t n, std::size_t reach, double sigma_px) {
+    if (reach != reach_) gain_ = local_fit_gains(reach_ = reach).curvature;
+    return shift_of(fitter_.at(n, reach), gain_, sigma_, sigma_px, shared_px_);
+  }
+
+ private:
+  LocalFitter fitter_;
+  double sigma_, shared_px_, gain_ = 0;
+  std::size_t reach_ = 0;
+};
 
 /// One stretch without gaps and bridges.
 void correct_stretch(std::span<StripePoint> points, double sigma, double shared_px, BendWorkspace& w,
@@ -42,14 +63,19 @@ void correct_stretch(std::span<StripePoint> points, double sigma, double shared_
   w.nodes.clear();
   for (std::size_t i = 0; i < points.size(); i += stride) w.nodes.push_back({points[i].x, points[i].y});
   w.shifts.assign(w.nodes.size(), {});
-  LocalFitter fitter(w.nodes);
-  double gain = 0;
-  std::size_t gain_reach = 0;
+  ShiftFinder near(w.nodes, sigma, shared_px), far(w.nodes, sigma, shared_px);
   for (std::size_t n = 0; n < w.nodes.size(); ++n) {
-    const std::size_t reach = std::min({most, n, w.nodes.size() - 1 - n});
+    const std::size_t room = std::min(n, w.nodes.size() - 1 - n), reach = std::min(most, room);
     if (reach < kLeastReach) continue;
-    if (reach != gain_reach) gain = local_fit_gains(gain_reach = reach).curvature;
-    w.shifts[n] = shift_of(fitter.at(n, reach), gain, sigma, points[n * stride].sigma_px, shared_px);
+    const double sigma_px = points[n * stride].sigma_px;
+    const Shift s = near.at(n, reach, sigma_px);
+    w.shifts[n] = {s.trust * s.x, s.trust * s.y};
+    if (s.trust > kSure || room <= reach) continue;
+    // In grain a gentle bend shows over a longer stretch only.
+    const Shift longer = far.at(n, std::min(3 * most, room), sigma_px);
+    const double rest = (1 - s.trust) * longer.trust;
+    w.shifts[n].x += rest * longer.x;
+    w.shifts[n].y += rest * longer.y;
   }
   // Too near the ends for a fit of their own: the bend goes on.
   for (std::size_t n = 0; n < kLeastReach && w.nodes.size() > 2 * kLeastReach; ++n) {

@@ -19,8 +19,9 @@ struct BendWorkspace {
 
 /// Moves points by sigma^2 / 2 times the line's curvature to the outer side: the heat equation in polar
 /// coordinates, f_t = (f_rr + f_r / r) / 2, drifts a ring of radius r inwards by sigma^2 / (2 r). The
-/// curvature comes from a quadratic fit over about 3 sigma to both sides and counts only as far as it stands
-/// out of the points' sigma_px. Adds its own error to `lines.systematic`.
+/// curvature comes from a quadratic fit over about 3 sigma to both sides as far as it stands out of the
+/// points' sigma_px, and for the rest from one over 9 sigma: in grain a gentle bend shows over a longer
+/// stretch only. Adds its own error to `lines.systematic`.
 void correct_curvature_bias(const DerivativeKernels& kernels, LineSet& lines, BendWorkspace& workspace);
 
 }  // namespace lightstripe

@@ -31,6 +31,8 @@ constexpr double kNoEnd = 2.2;
 constexpr std::array<double, 3> kTangents{0.5, 1, 2};
 /// Strengths agree with an end to some 2 % where neither grain nor shading spoils them.
 constexpr double kStrengthError = 0.02;
+/// In sigmas of the kernels: no cut draws a line farther aside than that; then it bends.
+constexpr double kFarthestAside = 1.25;
 /// Mean square of the misfits over the points' own: a parabola over the wide stretch that is worse is not
 /// used.
 constexpr double kMostMisfit = 1.5;
@@ -149,10 +151,15 @@ void set_influence(const LightEnd& light, double step, double sigma_px, std::spa
   }
 }
 
-/// Moves the disturbed points onto the line that all points together tell.
-void move_points(const EndView& end, const Hypothesis& h, const EndFit& wide,
+/// Moves the disturbed points onto the line that all points together tell; false where no cut explains them.
+bool move_points(const EndView& end, const Hypothesis& h, const EndFit& wide,
                  std::span<const EndPoint> points, Direction along) {
   const EndFit& line = wide.misfit < kMostMisfit ? wide : h.narrow;
+  const EndPoint& last = points.front();
+  const double limit = kFarthestAside * h.light.sigma;
+  if (std::abs(line.across(last.u) - last.across) > limit ||
+      std::abs(wide.across(last.u) - h.narrow.across(last.u)) > limit)
+    return false;
   const StripePoint& whole = end[h.disturbed];
   const double side = whole.normal_y * along.x - whole.normal_x * along.y > 0 ? 1.0 : -1.0;
   for (std::size_t i = 0; i < h.disturbed; ++i) {
@@ -168,6 +175,7 @@ void move_points(const EndView& end, const Hypothesis& h, const EndFit& wide,
     p.normal_x = scale * (-along.y - slope * along.x);
     p.normal_y = scale * (along.x - slope * along.y);
   }
+  return true;
 }
 
 bool is_joined(const EndView& end, std::size_t count) {
@@ -185,7 +193,8 @@ void widen_errors(const EndView& end, const Hypothesis& h, double sigma_px, doub
   }
 }
 
-void mend_end(const EndView& end, double sigma, double shared_px, std::vector<EndPoint>& points) {
+void mend_end(const EndView& end, double sigma, double shared_px, EndsOnPrint on_print,
+              std::vector<EndPoint>& points) {
   const auto scale = static_cast<std::size_t>(std::ceil(sigma));
   if (end.size() < 3 * scale) return;
   const StripePoint& inner = end[std::min(4 * scale, end.size() - 1)];
@@ -201,7 +210,7 @@ void mend_end(const EndView& end, double sigma, double shared_px, std::vector<En
   end.continue_systematic(reach + scale);  // where fading was looked at over undisturbed points
   const auto narrow_count = reach + static_cast<std::size_t>(kNarrow * sigma / step),
              count = reach + static_cast<std::size_t>(kWide * sigma / step);
-  if (end.size() <= count || !is_joined(end, count))
+  if (on_print == EndsOnPrint::kYes || end.size() <= count || !is_joined(end, count))
     return widen_errors(end, likeliest, inner.sigma_px, step);
 
   const StripePoint &origin = end[reach], &ahead = end[std::min(reach + 2 * scale, count)];
@@ -223,19 +232,29 @@ void mend_end(const EndView& end, double sigma, double shared_px, std::vector<En
   const auto cheaper = [](const Hypothesis& a, const Hypothesis& b) { return a.cost < b.cost; };
   const Hypothesis& best = *std::min_element(all.begin(), all.end(), cheaper);
   set_influence(best.light, step, inner.sigma_px, points);
-  move_points(end, best, fit_end(points, shared), points, along);
+  if (!move_points(end, best, fit_end(points, shared), points, along))
+    widen_errors(end, likeliest, inner.sigma_px, step);
 }
 
 }  // namespace
 
-void mend_line_ends(const DerivativeKernels& kernels, LineSet& lines, LineEndWorkspace& workspace) {
+void mend_line_ends(const DerivativeKernels& kernels, PictureSize size, EndsOnPrint on_print, LineSet& lines,
+                    LineEndWorkspace& workspace) {
+  // Beyond the border the kernels see the last row again: the light does not end there.
+  const auto inside = [&](const StripePoint& p) {
+    const double x = std::min(p.x, size.width - 1 - p.x), y = std::min(p.y, size.height - 1 - p.y);
+    return std::min(x, y) >= kernels.sigma;
+  };
   for (const LineRange& r : lines.lines) {
     const std::span<StripePoint> line(lines.points.data() + r.begin, r.size());
     const std::span<float> systematic = lines.systematic.size() == lines.points.size()
                                             ? std::span(lines.systematic).subspan(r.begin, r.size())
                                             : std::span<float>{};
-    mend_end({line, systematic, false}, kernels.sigma, r.shared_px, workspace.points);
-    mend_end({line, systematic, true}, kernels.sigma, r.shared_px, workspace.points);
+    if (line.empty()) continue;
+    if (inside(line.front()))
+      mend_end({line, systematic, false}, kernels.sigma, r.shared_px, on_print, workspace.points);
+    if (inside(line.back()))
+      mend_end({line, systematic, true}, kernels.sigma, r.shared_px, on_print, workspace.points);
   }
 }
 

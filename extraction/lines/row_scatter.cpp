@@ -34,6 +34,24 @@ struct Crossing {
   double cosine = 1;  ///< of the angle between it and the line's normal
 };
 
+/// A row that crosses a line obliquely looks at it across with a scale smaller by the cosine.
+struct ObliqueView {
+  double square = 1;  ///< of the stripe's standard deviation, px^2
+  double sigma2 = 1;  ///< of the kernels, px^2
+
+  /// Of the second derivative across by the smaller scale over that by the kernels' own:
+  /// ((s^2 + sigma^2) / (s^2 + sigma^2 cos^2))^(3/2).
+  double sharper(double cosine) const {
+    const double ratio = (square + sigma2) / (square + sigma2 * cosine * cosine);
+    return ratio * std::sqrt(ratio);
+  }
+  /// What a centre by the kernels' own scale errs by, over that of the row. Speckle is as strong as the
+  /// light: its variance goes as (1 / sigma^2 + 1 / s^2)^(3/2).
+  double in_speckle(double cosine) const { return std::sqrt(cosine * cosine * cosine * sharper(cosine)); }
+  /// The like variance in white noise, which goes as (s^2 + sigma^2)^3 / sigma^3, over that in speckle.
+  double white_over_speckle(double cosine) const { return sharper(cosine); }
+};
+
 Crossing crossing_at(const StripePoint& p) {
   const bool is_row = std::abs(p.normal_x) >= std::abs(p.normal_y);
   const double across = is_row ? p.normal_x : p.normal_y, along = is_row ? p.normal_y : p.normal_x;
@@ -44,7 +62,7 @@ Crossing crossing_at(const StripePoint& p) {
 }
 
 /// The centre of one row less that of the line, px along the row, for kernels along the row only.
-/// `strength`: the line's, across it.
+/// `strength`: of the row's own scale, across the line.
 template <class T>
 double row_offset(ImageView<T> image, const DerivativeKernels& kernels, const Crossing& c, double strength) {
   const int count = c.is_row ? image.width : image.height;
@@ -76,11 +94,11 @@ bool bends_at(const LineSet& lines, const LineRange& r, std::size_t i, double si
   return product * product > square * square * square;
 }
 
-/// Each row's centre less the line's, px across the line; rows in order, NaN where one does not follow the
-/// other. Returns the mean cosine.
+/// Each row's centre less the line's, px across the line, as large as the kernels' own scale would scatter in
+/// speckle; rows in order, NaN where one does not follow the other. Returns the mean cosine.
 template <class T>
 double collect_offsets(ImageView<T> image, const DerivativeKernels& kernels, const LineSet& lines,
-                       const LineRange& r, std::vector<float>& offsets) {
+                       const LineRange& r, const ObliqueView& view, std::vector<float>& offsets) {
   offsets.clear();
   Crossing last{};
   double cosines = 0, used = 0;
@@ -95,7 +113,8 @@ double collect_offsets(ImageView<T> image, const DerivativeKernels& kernels, con
     }
     if (c.is_row == last.is_row && c.index == last.index) continue;  // two points in one row
     if (c.is_row != last.is_row || std::abs(c.index - last.index) != 1) offsets.push_back(kGap);
-    offsets.push_back(static_cast<float>(c.cosine * row_offset(image, kernels, c, p.strength)));
+    const double offset = row_offset(image, kernels, c, p.strength * view.sharper(c.cosine));
+    offsets.push_back(static_cast<float>(c.cosine * offset * view.in_speckle(c.cosine)));
     cosines += c.cosine;
     used += 1;
     last = c;
@@ -271,12 +290,6 @@ double common_grain(std::span<const RowDifferences> lines) {
   return grains.px.at(best);
 }
 
-/// Variance of a Steger point in white or fine-grained noise by its scale across the line, up to a factor.
-double variance_at_scale(double width, double sigma) {
-  const double s2 = std::max(width * width / 12, 0.25), sum = s2 + sigma * sigma;  // width = 2 sqrt(3) s
-  return sum * sum * sum / (sigma * sigma * sigma);
-}
-
 namespace {
 
 double smoothed_variance(double variance, double grain, double sigma) {
@@ -300,10 +313,13 @@ double RowScatter::grained_density() const { return kRootTwoPi * grain_variance 
 template <class T>
 RowDifferences look_at_rows(ImageView<T> image, const DerivativeKernels& kernels, const LineSet& lines,
                             const LineRange& range, RowScatterWorkspace& w) {
-  const double cosine = collect_offsets(image, kernels, lines, range, w.offsets);
-  find_runs(w.offsets, w.runs);
   RowDifferences line;
   line.sigma = kernels.sigma;
+  if (range.size() == 0) return line;
+  const double width = lines.points[range.begin + range.size() / 2].width;  // 2 sqrt(3) s
+  const ObliqueView view{std::max(width * width / 12, 0.25), kernels.sigma * kernels.sigma};
+  const double cosine = collect_offsets(image, kernels, lines, range, view, w.offsets);
+  find_runs(w.offsets, w.runs);
   line.step = 1 / cosine;
   for (std::size_t k = 0; k < kLags; ++k) {
     line.seen.at(k) = second_difference(w, k + 1, w.squares);
@@ -311,9 +327,7 @@ RowDifferences look_at_rows(ImageView<T> image, const DerivativeKernels& kernels
   }
   line.rows = static_cast<double>(w.squares.size());
   line.white = expected_differences(kIndependent * line.step, line.sigma, line.step);
-  // Rows that cross the line obliquely look at it with a scale smaller by the cosine.
-  const double width = lines.points[range.begin + range.size() / 2].width;
-  line.factor = variance_at_scale(width, line.sigma) / variance_at_scale(width, line.sigma * cosine);
+  line.white_factor = view.white_over_speckle(cosine);
   return line;
 }
 
@@ -324,7 +338,7 @@ CommonScatter common_scatter(std::span<const RowDifferences> lines) {
   for (const RowDifferences& line : lines) {
     if (line.rows == 0) continue;
     rows += line.rows;
-    variance += line.rows * line.factor * shares_of(line, line.white, common.grain_px).grained / line.sigma;
+    variance += line.rows * shares_of(line, line.white, common.grain_px).grained / line.sigma;
   }
   common.grain_per_px = variance / rows;
   return common;
@@ -338,8 +352,9 @@ RowScatter fit_scatter(const RowDifferences& line, const CommonScatter& common) 
   if (line.rows > 0) {
     const TwoShares shares = shares_of(line, line.white, common.grain_px);
     const double grained = common.grain_px > 0 ? shares.grained : 0.0;
-    scatter.white_variance = line.factor * (shares.white + (common.grain_px > 0 ? 0.0 : shares.grained));
-    scatter.grain_variance = line.factor * grained;
+    scatter.white_variance =
+        line.white_factor * (shares.white + (common.grain_px > 0 ? 0.0 : shares.grained));
+    scatter.grain_variance = grained;
   }
   scatter.grain_variance =
       (line.rows * scatter.grain_variance + kCommonRows * common.grain_per_px * line.sigma) /

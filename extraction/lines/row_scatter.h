@@ -42,7 +42,7 @@ struct RowDifferences {
   double rows = 0;                    ///< that were looked at; 0: too few
   double sigma = 1;                   ///< px, of the kernels
   double step = 1;                    ///< px along the line from row to row
-  double factor = 1;                  ///< of the variance, for rows that cross the line obliquely
+  double white_factor = 1;            ///< of an independent variance, for rows that cross the line obliquely
 };
 
 /// Scratch memory.

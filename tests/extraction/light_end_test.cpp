@@ -37,6 +37,7 @@ TEST(LightEnd, IsNotSeenWhereTheStrengthStays) {
 
 TEST(LightEnd, SpeckleScattersTwiceTheVarianceWhereHalfTheKernelIsLit) {
   EXPECT_NEAR(LightEnd::scatter(0), std::sqrt(2.0), 1e-12);
+  EXPECT_NEAR(LightEnd::scatter(1), 1.14088, 1e-5);  // sqrt(Phi(sqrt 2)) / Phi(1)
   EXPECT_NEAR(LightEnd::scatter(4), 1, 1e-4);
 }
 

@@ -44,10 +44,11 @@ TEST(SectionBends, DoNotCountInDeviationsFromTheScansMean) {
 
 TEST(SectionBends, CountInTheConicityOfEveryAmplitude) {
   MeasuredFrame row, bent;
-  row.conicity = {{1, 0, 0.10, 0.003}, {1.1, 0, std::nullopt, std::nullopt}};
-  bent.conicity = {{1, 0, 0.104, 0}, {1.1, 0, 0.2, 0}};
+  row.conicity = {{1, 0, 0.10, 0.003}, {1.1, 0, std::nullopt, std::nullopt}, {1.2, 0, 0.10, 0.005}};
+  bent.conicity = {{1, 0, 0.104, 0}, {1.1, 0, 0.2, 0}, {1.2, 0, 0.112, 0}};
   add_bends({bent}, row);
   EXPECT_NEAR(*row.conicity[0].sigma, 0.005, 1e-12);
+  EXPECT_NEAR(*row.conicity[2].sigma, 0.013, 1e-12);
   EXPECT_FALSE(row.conicity[1].sigma);
 }
 

@@ -65,6 +65,8 @@ TEST_F(RigBesideSections, IsFoundWhereTheFoldersWereMovedTogetherOrTheTableAlone
   EXPECT_TRUE(fs::equivalent(rig_of_sections(moved / "scan/profiles.csv", {}).file, moved / "cal/rig.yaml"));
   fs::rename(moved / "cal", folder_ / "cal");
   EXPECT_TRUE(fs::equivalent(rig_of_sections(moved / "scan/profiles.csv", {}).file, rig()));
+  folder_.write("elsewhere/cal/rig.yaml", rig_to_yaml(rig_of(1650)));  // another one beside it
+  EXPECT_TRUE(fs::equivalent(rig_of_sections(moved / "scan/profiles.csv", {}).file, rig()));
 }
 
 TEST_F(RigBesideSections, ThatIsGoneIsMissedByName) {
