@@ -229,7 +229,7 @@ void finish_lines(const Run<T>& run, ScaleGroup& group) {
   if (has_ridges(run.options.method)) {
     find_fade_errors(kernels, group.lines, w.values);
     const EndsOnPrint on_print = run.options.on_pattern ? EndsOnPrint::kYes : EndsOnPrint::kNo;
-    mend_line_ends(kernels, {run.image.width, run.image.height}, on_print, group.lines, w.ends);
+    mend_line_ends(kernels, on_print, group.lines, w.ends);
     mend_junctions(kernels, group.lines);
   }
   if (run.options.curvature_correction && has_ridges(run.options.method))

@@ -238,23 +238,18 @@ void mend_end(const EndView& end, double sigma, double shared_px, EndsOnPrint on
 
 }  // namespace
 
-void mend_line_ends(const DerivativeKernels& kernels, PictureSize size, EndsOnPrint on_print, LineSet& lines,
+void mend_line_ends(const DerivativeKernels& kernels, EndsOnPrint on_print, LineSet& lines,
                     LineEndWorkspace& workspace) {
-  // Beyond the border the kernels see the last row again: the light does not end there.
-  const auto inside = [&](const StripePoint& p) {
-    const double x = std::min(p.x, size.width - 1 - p.x), y = std::min(p.y, size.height - 1 - p.y);
-    return std::min(x, y) >= kernels.sigma;
-  };
   for (const LineRange& r : lines.lines) {
     const std::span<StripePoint> line(lines.points.data() + r.begin, r.size());
     const std::span<float> systematic = lines.systematic.size() == lines.points.size()
                                             ? std::span(lines.systematic).subspan(r.begin, r.size())
                                             : std::span<float>{};
     if (line.empty()) continue;
-    if (inside(line.front()))
-      mend_end({line, systematic, false}, kernels.sigma, r.shared_px, on_print, workspace.points);
-    if (inside(line.back()))
-      mend_end({line, systematic, true}, kernels.sigma, r.shared_px, on_print, workspace.points);
+
+    mend_end({line, systematic, false}, kernels.sigma, r.shared_px, on_print, workspace.points);
+
+    mend_end({line, systematic, true}, kernels.sigma, r.shared_px, on_print, workspace.points);
   }
 }
 

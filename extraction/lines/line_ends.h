@@ -25,17 +25,12 @@ struct LineEndWorkspace {
 /// Whether the line runs over print, which makes its strength tell less of its end: then no point is moved.
 enum class EndsOnPrint { kNo, kYes };
 
-/// px
-struct PictureSize {
-  int width = 0, height = 0;
-};
-
 /// Where the strength of a line's last points falls as the light's end lets it (light_end.h), these points
 /// and those further in together tell the line, a parabola, and the tangent of the cut, which has drawn the
 /// last ones aside: a least-squares fit in which each point has its noise, and the shift by the cut its own
 /// error. The disturbed points move onto that line; sigma_px is the fit's. Of a line that is too short for it
 /// only sigma_px grows, by what a cut at 45 degrees does.
-void mend_line_ends(const DerivativeKernels& kernels, PictureSize size, EndsOnPrint on_print, LineSet& lines,
+void mend_line_ends(const DerivativeKernels& kernels, EndsOnPrint on_print, LineSet& lines,
                     LineEndWorkspace& workspace);
 
 }  // namespace lightstripe

@@ -36,7 +36,7 @@ TEST(LineEnds, DisturbedPointsGoOnWithTheLine) {
   }
   EXPECT_GT(lines.points[0].y, 50.4);
   LineEndWorkspace scratch;
-  mend_line_ends(make_derivative_kernels(2), {200, 200}, EndsOnPrint::kNo, lines, scratch);
+  mend_line_ends(make_derivative_kernels(2), EndsOnPrint::kNo, lines, scratch);
   for (const std::size_t i : {0, 1, 2, 3, 4, 5, 74, 75, 76, 77, 78, 79}) {
     EXPECT_NEAR(lines.points[i].y, 50, 0.02) << i;
     EXPECT_NEAR(lines.points[i].x, 10.0 + static_cast<double>(i), 0.02);
@@ -52,17 +52,8 @@ TEST(LineEnds, WholeEndsAndShortLinesStay) {
   LineSet lines = straight_line();
   lines.points[0].y = 50.4;  // as strong as all others: no end that the picture blurs
   LineEndWorkspace scratch;
-  mend_line_ends(make_derivative_kernels(2), {200, 200}, EndsOnPrint::kNo, lines, scratch);
+  mend_line_ends(make_derivative_kernels(2), EndsOnPrint::kNo, lines, scratch);
   EXPECT_EQ(lines.points[0].y, 50.4);
-}
-
-TEST(LineEnds, AtThePicturesBorderNoLightEnds) {
-  LineSet lines = straight_line();
-  lines.points[79].strength = 4, lines.points[78].strength = 7, lines.points[79].y = 50.4;
-  LineEndWorkspace scratch;
-  mend_line_ends(make_derivative_kernels(2), {91, 100}, EndsOnPrint::kNo, lines, scratch);
-  EXPECT_EQ(lines.points[79].y, 50.4);
-  EXPECT_EQ(lines.points[79].sigma_px, kSigma);
 }
 
 TEST(LineEnds, WhatNoCutExplainsStays) {
@@ -72,7 +63,7 @@ TEST(LineEnds, WhatNoCutExplainsStays) {
     lines.points[i].strength = 4 + 0.75 * static_cast<double>(i);
   }
   LineEndWorkspace scratch;
-  mend_line_ends(make_derivative_kernels(2), {200, 200}, EndsOnPrint::kNo, lines, scratch);
+  mend_line_ends(make_derivative_kernels(2), EndsOnPrint::kNo, lines, scratch);
   EXPECT_EQ(lines.points[0].y, 56);
   EXPECT_GT(lines.points[0].sigma_px, 0.3);
 }
@@ -84,7 +75,7 @@ TEST(LineEnds, OfShortLinesOnlySigmaGrows) {
   for (StripePoint& p : stub.points) p.width = 7;
   stub.points[0].y = 50.4;
   LineEndWorkspace scratch;
-  mend_line_ends(make_derivative_kernels(2), {200, 200}, EndsOnPrint::kNo, stub, scratch);
+  mend_line_ends(make_derivative_kernels(2), EndsOnPrint::kNo, stub, scratch);
   EXPECT_EQ(stub.points[0].y, 50.4);
   EXPECT_GT(stub.points[0].sigma_px, 0.4);  // a cut at 45 degrees draws it 0.5 sigma aside or more
   EXPECT_GT(stub.points[1].sigma_px, stub.points[2].sigma_px);
