@@ -62,7 +62,7 @@ fi
 "$night" scan.yaml -o cloud.ply --profiles cloud.csv --parts "$parts" --cores 1 --binary "$binary" >submitted.txt
 killed=0
 while [ "$killed" -lt "$kills" ] && [ -n "$(squeue -h -n night)" ]; do
-  sleep "$((RANDOM % (frames / 2000 + 1))).$((RANDOM % 9 + 1))"
+  sleep "$((RANDOM % (frames / 25000 + 1))).$((RANDOM % 9 + 1))"
   mapfile -t running < <(pgrep -f "^$binary reconstruct $work/scan.yaml" || true)
   [ ${#running[@]} -gt 0 ] || continue
   kill -KILL "${running[RANDOM % ${#running[@]}]}" 2>/dev/null && killed=$((killed + 1))
