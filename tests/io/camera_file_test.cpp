@@ -128,6 +128,11 @@ TEST_F(CameraFile, CamchainsAreReadByCamera) {
   EXPECT_EQ(camera.width, 752);
   EXPECT_EQ(camera.distortion[2], 0.0008);
   EXPECT_THAT(message_of(path + "#cam1"), HasSubstr("equidistant"));
+  // Found by libFuzzer: a size beyond every int.
+  const std::string cam =
+      "cam0:\n  camera_model: pinhole\n  intrinsics: [461.5, 460.25, 362.5, 246.0]\n  resolution: ";
+  for (const char* size : {"[7.6e123, 480]", "[752, -480]", "[752.5, 480]"})
+    EXPECT_THAT(message_of(written("size.yaml", cam + size + "\n")), HasSubstr("no picture's")) << size;
   EXPECT_THAT(message_of(path + "#cam7"), HasSubstr("has no cam7"));
 }
 
