@@ -15,9 +15,8 @@ double density(double z) { return 0.3989422804 * std::exp(-0.5 * z * z); }
 
 constexpr double kFirst = -1, kStep = 0.125;  // of z in the tables
 constexpr auto kTries = static_cast<std::size_t>((kFarthestInside - kFirst) / kStep) + 1;
-constexpr auto kStepsPerSample = static_cast<std::size_t>(1 / (kEndSamplesPerSigma * kStep));
+constexpr auto kStepsPerSample = static_cast<std::size_t>(1 / (kEndSamplesPerSpread * kStep));
 constexpr std::size_t kEntries = kTries + kStepsPerSample * (kEndSamples - 1);
-constexpr std::array<double, 3> kTangents{0.5, 1, 2};
 /// Of a stripe over the kernels' sigma.
 constexpr double kNarrowest = 0.2, kWidthGrowth = 1.25;
 constexpr std::size_t kWidths = 10;
@@ -47,7 +46,7 @@ namespace {
 const EndTable& table_of(const LightEnd& light) {
   static const auto tables = [] {
     std::vector<EndTable> all;
-    for (const double tangent : kTangents)
+    for (const double tangent : kEndTangents)
       for (std::size_t i = 0; i < kWidths; ++i)
         all.emplace_back(kNarrowest * std::pow(kWidthGrowth, static_cast<double>(i)), tangent);
     return all;
@@ -55,7 +54,8 @@ const EndTable& table_of(const LightEnd& light) {
   const auto nearer = [&](double a, double b) {
     return std::abs(a - light.tangent) < std::abs(b - light.tangent);
   };
-  const auto tangent = std::min_element(kTangents.begin(), kTangents.end(), nearer) - kTangents.begin();
+  const auto tangent =
+      std::min_element(kEndTangents.begin(), kEndTangents.end(), nearer) - kEndTangents.begin();
   const double place = std::log(light.width / (light.sigma * kNarrowest)) / std::log(kWidthGrowth);
   const auto width = static_cast<std::size_t>(std::lround(std::clamp(place, 0.0, kWidths - 1.0)));
   return tables[static_cast<std::size_t>(tangent) * kWidths + width];

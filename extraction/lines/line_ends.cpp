@@ -6,10 +6,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
-#include <numbers>
 #include <span>
 
+#include "extraction/kernels/width_rule.h"
 #include "extraction/lines/light_end.h"
 #include "extraction/lines/local_fit.h"
 
@@ -27,8 +26,6 @@ constexpr double kShiftError = 0.25;
 constexpr double kNarrow = 4, kWide = 8;
 /// z of the first point from which on no end is seen, but noise of the strengths.
 constexpr double kNoEnd = 2.2;
-/// Tangents that are tried: beyond the last one a cut only gets longer.
-constexpr std::array<double, 3> kTangents{0.5, 1, 2};
 /// Strengths agree with an end to some 2 % where neither grain nor shading spoils them.
 constexpr double kStrengthError = 0.02;
 /// In sigmas of the kernels: no cut draws a line farther aside than that; then it bends.
@@ -57,7 +54,7 @@ struct EndView {
 std::array<double, kEndSamples> strengths_of(const EndView& end, double spread, double step) {
   std::array<double, kEndSamples> strengths{};
   for (std::size_t k = 0; k < kEndSamples; ++k) {
-    const double place = static_cast<double>(k) * spread / (static_cast<double>(kEndSamplesPerSigma) * step);
+    const double place = static_cast<double>(k) * spread / (static_cast<double>(kEndSamplesPerSpread) * step);
     strengths.at(k) = end[std::min(static_cast<std::size_t>(std::lround(place)), end.size() - 1)].strength;
   }
   return strengths;
@@ -121,12 +118,12 @@ double z_of(const LightEnd& light, std::size_t i, double step) {
   return light.inside + static_cast<double>(i) * step / light.spread();
 }
 
-std::array<Hypothesis, kTangents.size()> ends_by_strength(const EndView& end, double sigma, double width,
-                                                          double step) {
-  std::array<Hypothesis, kTangents.size()> all;
+std::array<Hypothesis, kEndTangents.size()> ends_by_strength(const EndView& end, double sigma, double width,
+                                                             double step) {
+  std::array<Hypothesis, kEndTangents.size()> all;
   for (std::size_t k = 0; k < all.size(); ++k) {
     Hypothesis& h = all.at(k);
-    h.light = {sigma, std::clamp(width / (2 * std::numbers::sqrt3), 0.3, 1.5 * sigma), kTangents.at(k)};
+    h.light = {sigma, std::clamp(sigma_of_full_width(width), 0.3, 1.5 * sigma), kEndTangents.at(k)};
     const EndOfStrength fit = fit_light_end(h.light, strengths_of(end, h.light.spread(), step));
     h.light.inside = fit.inside;
     h.strength_misfit = fit.misfit + kEndSamples * kStrengthError * kStrengthError;
@@ -196,17 +193,13 @@ void widen_errors(const EndView& end, const Hypothesis& h, double sigma_px, doub
 void mend_end(const EndView& end, double sigma, double shared_px, EndsOnPrint on_print,
               std::vector<EndPoint>& points) {
   const auto scale = static_cast<std::size_t>(std::ceil(sigma));
-  if (end.size() < 3 * scale) return;
+  if (end.size() < 3 * scale) return;  // three or more points, since scale is 1 at least
   const StripePoint& inner = end[std::min(4 * scale, end.size() - 1)];
   const double step = std::clamp(std::hypot(end[1].x - end[0].x, end[1].y - end[0].y), 0.5, 1.5);
   auto all = ends_by_strength(end, sigma, inner.width, step);
-  const auto worse = [](const Hypothesis& a, const Hypothesis& b) {
-    return a.strength_misfit < b.strength_misfit;
-  };
-  const Hypothesis& likeliest = *std::min_element(all.begin(), all.end(), worse);
+  const Hypothesis& likeliest = *std::ranges::min_element(all, {}, &Hypothesis::strength_misfit);
   if (likeliest.light.inside >= kNoEnd) return;
-  std::size_t reach = 0;
-  for (const Hypothesis& h : all) reach = std::max(reach, h.disturbed);
+  const std::size_t reach = std::ranges::max(all, {}, &Hypothesis::disturbed).disturbed;
   end.continue_systematic(reach + scale);  // where fading was looked at over undisturbed points
   const auto narrow_count = reach + static_cast<std::size_t>(kNarrow * sigma / step),
              count = reach + static_cast<std::size_t>(kWide * sigma / step);
@@ -229,8 +222,7 @@ void mend_end(const EndView& end, double sigma, double shared_px, EndsOnPrint on
     // Three or four of the strengths are independent of each other.
     h.cost = h.narrow.cost + 4 * std::log(h.strength_misfit) + surprise_of(h.light.tangent);
   }
-  const auto cheaper = [](const Hypothesis& a, const Hypothesis& b) { return a.cost < b.cost; };
-  const Hypothesis& best = *std::min_element(all.begin(), all.end(), cheaper);
+  const Hypothesis& best = *std::ranges::min_element(all, {}, &Hypothesis::cost);
   set_influence(best.light, step, inner.sigma_px, points);
   if (!move_points(end, best, fit_end(points, shared), points, along))
     widen_errors(end, likeliest, inner.sigma_px, step);
@@ -245,10 +237,7 @@ void mend_line_ends(const DerivativeKernels& kernels, EndsOnPrint on_print, Line
     const std::span<float> systematic = lines.systematic.size() == lines.points.size()
                                             ? std::span(lines.systematic).subspan(r.begin, r.size())
                                             : std::span<float>{};
-    if (line.empty()) continue;
-
     mend_end({line, systematic, false}, kernels.sigma, r.shared_px, on_print, workspace.points);
-
     mend_end({line, systematic, true}, kernels.sigma, r.shared_px, on_print, workspace.points);
   }
 }

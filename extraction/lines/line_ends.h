@@ -28,8 +28,8 @@ enum class EndsOnPrint { kNo, kYes };
 /// Where the strength of a line's last points falls as the light's end lets it (light_end.h), these points
 /// and those further in together tell the line, a parabola, and the tangent of the cut, which has drawn the
 /// last ones aside: a least-squares fit in which each point has its noise, and the shift by the cut its own
-/// error. The disturbed points move onto that line; sigma_px is the fit's. Of a line that is too short for it
-/// only sigma_px grows, by what a cut at 45 degrees does.
+/// error. The disturbed points move onto that line; sigma_px is the fit's. Of a line that is too short for
+/// it, or that no cut explains, only sigma_px grows, by what a cut at 45 degrees does.
 void mend_line_ends(const DerivativeKernels& kernels, EndsOnPrint on_print, LineSet& lines,
                     LineEndWorkspace& workspace);
 

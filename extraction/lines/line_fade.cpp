@@ -6,7 +6,7 @@
 #include <cmath>
 #include <span>
 
-#include "core/robust.h"
+#include "extraction/lines/ranked_value.h"
 
 namespace lightstripe {
 namespace {
@@ -33,7 +33,7 @@ float usual_slope(std::span<const float> slopes, std::size_t reach, std::span<fl
   constexpr std::size_t kStride = 4;
   std::size_t count = 0;
   for (std::size_t i = reach; i + reach < slopes.size(); i += kStride) scratch[count++] = slopes[i];
-  return upper_median(scratch.first(count));
+  return ranked_median(scratch.first(count));
 }
 
 void find_in_line(std::span<const StripePoint> points, double sigma, std::span<float> errors,

@@ -123,7 +123,7 @@ void measure_singly(ImageView<T> image, double sigma, double full_width, double 
 
 }  // namespace
 
-double median_of(const std::vector<float>& values) {
+double median_of(std::vector<float>& values) {
   if (values.empty()) return 0;
   return ranked_median(values);
 }

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <vector>
 
 #include "core/error.h"
 #include "core/robust.h"
@@ -37,10 +36,10 @@ Parts part(std::span<const float> values, float pivot, Values& less, Values& gre
 
 }  // namespace
 
-float ranked_value(std::span<const float> values, std::size_t rank) {
+float ranked_value(std::span<float> values, std::size_t rank) {
   LIGHTSTRIPE_CHECK(rank < values.size(), "a rank beyond the values");
   // One place more than values, since what is not kept is written, too.
-  if (values.size() >= kMost) return value_at_rank(std::vector<float>(values.begin(), values.end()), rank);
+  if (values.size() >= kMost) return value_at_rank(values, rank);
   std::array<Values, 4> memory;  // NOLINT(cppcoreguidelines-pro-type-member-init): written before it is read
   for (std::size_t turn = 0;; turn ^= 1U) {
     const float pivot = median_of_three(values.front(), values[values.size() / 2], values.back());

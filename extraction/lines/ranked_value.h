@@ -8,11 +8,12 @@
 
 namespace lightstripe {
 
-/// The value with this rank in rising order, 0 for the smallest; none of the values may be NaN. The same as
-/// value_at_rank(), without its reordering, and faster: no branch depends on how a value compares.
-float ranked_value(std::span<const float> values, std::size_t rank);
+/// The value with this rank in rising order, 0 for the smallest; none of the values may be NaN. May reorder
+/// the values. The same as value_at_rank(), and for fewer than 512 values faster: no branch depends on how a
+/// value compares.
+float ranked_value(std::span<float> values, std::size_t rank);
 
 /// The median; of an even number the upper one of the two in the middle.
-inline float ranked_median(std::span<const float> values) { return ranked_value(values, values.size() / 2); }
+inline float ranked_median(std::span<float> values) { return ranked_value(values, values.size() / 2); }
 
 }  // namespace lightstripe

@@ -45,12 +45,13 @@ struct ObliqueView {
     const double ratio = (square + sigma2) / (square + sigma2 * cosine * cosine);
     return ratio * std::sqrt(ratio);
   }
-  /// What a centre by the kernels' own scale errs by, over that of the row. Speckle is as strong as the
-  /// light: its variance goes as (1 / sigma^2 + 1 / s^2)^(3/2).
-  double in_speckle(double cosine) const { return std::sqrt(cosine * cosine * cosine * sharper(cosine)); }
-  /// The like variance in white noise, which goes as (s^2 + sigma^2)^3 / sigma^3, over that in speckle.
-  double white_over_speckle(double cosine) const { return sharper(cosine); }
 };
+
+/// What a centre by the kernels' own scale errs by in speckle, over that of the row, for `sharper` at this
+/// cosine. Speckle is as strong as the light: its variance goes as (1 / sigma^2 + 1 / s^2)^(3/2).
+double error_in_speckle(double cosine, double sharper) {
+  return std::sqrt(cosine * cosine * cosine * sharper);
+}
 
 Crossing crossing_at(const StripePoint& p) {
   const bool is_row = std::abs(p.normal_x) >= std::abs(p.normal_y);
@@ -113,8 +114,9 @@ double collect_offsets(ImageView<T> image, const DerivativeKernels& kernels, con
     }
     if (c.is_row == last.is_row && c.index == last.index) continue;  // two points in one row
     if (c.is_row != last.is_row || std::abs(c.index - last.index) != 1) offsets.push_back(kGap);
-    const double offset = row_offset(image, kernels, c, p.strength * view.sharper(c.cosine));
-    offsets.push_back(static_cast<float>(c.cosine * offset * view.in_speckle(c.cosine)));
+    const double sharper = view.sharper(c.cosine);
+    const double offset = row_offset(image, kernels, c, p.strength * sharper);
+    offsets.push_back(static_cast<float>(c.cosine * offset * error_in_speckle(c.cosine, sharper)));
     cosines += c.cosine;
     used += 1;
     last = c;
@@ -290,13 +292,9 @@ double common_grain(std::span<const RowDifferences> lines) {
   return grains.px.at(best);
 }
 
-namespace {
-
 double smoothed_variance(double variance, double grain, double sigma) {
   return variance * grain / std::sqrt(grain * grain + 2 * sigma * sigma);
 }
-
-}  // namespace
 
 }  // namespace
 
@@ -327,7 +325,8 @@ RowDifferences look_at_rows(ImageView<T> image, const DerivativeKernels& kernels
   }
   line.rows = static_cast<double>(w.squares.size());
   line.white = expected_differences(kIndependent * line.step, line.sigma, line.step);
-  line.white_factor = view.white_over_speckle(cosine);
+  // In white noise the variance goes as (s^2 + sigma^2)^3 / sigma^3: so much more than in speckle.
+  line.white_factor = view.sharper(cosine);
   return line;
 }
 

@@ -13,7 +13,8 @@ std::size_t utf8_length(std::string_view text, std::size_t at) {
                              : lead < 0xF0 ? 3
                              : lead < 0xF5 ? 4
                                            : 0;
-  if (length <= 1 || text.size() - at < length) return length <= 1 ? length : 0;
+  if (length <= 1) return length;
+  if (text.size() - at < length) return 0;
   for (std::size_t i = 1; i < length; ++i)
     if ((byte(i) & 0xC0U) != 0x80) return 0;
   const unsigned second = byte(1);

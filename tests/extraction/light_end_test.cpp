@@ -14,7 +14,7 @@ namespace {
 std::array<double, kEndSamples> strengths_from(const LightEnd& light, double z, double level) {
   std::array<double, kEndSamples> strengths{};
   for (std::size_t k = 0; k < kEndSamples; ++k)
-    strengths.at(k) = level * light.strength(z + static_cast<double>(k) / kEndSamplesPerSigma);
+    strengths.at(k) = level * light.strength(z + static_cast<double>(k) / kEndSamplesPerSpread);
   return strengths;
 }
 

@@ -82,7 +82,7 @@ TEST(LineEnds, OfShortLinesOnlySigmaGrows) {
 }
 
 /// A stripe of standard deviation 1.5 px at x = 60 that is cut off at y = 150 by an edge, `tangent` px down
-/// for each to the right, in speckle's place with rows that scatter.
+/// for each to the right.
 Image8 cut_stripe(double tangent) {
   scenes::Canvas canvas(120, 200, 5);
   canvas.add(scenes::make_line(60.2, -10, 60.2, 210, 160, 1.5));

@@ -39,7 +39,7 @@ TEST(RankedValue, SortedValuesAreNoTrap) {
 }
 
 TEST(RankedValue, ARankBeyondTheValuesIsRefused) {
-  const std::vector<float> values(3, 1.0F);
+  std::vector<float> values(3, 1.0F);
   EXPECT_ANY_THROW(ranked_value(values, 3));
 }
 
