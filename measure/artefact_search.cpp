@@ -16,7 +16,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr std::size_t kSearchPoints = 3000;
-constexpr int kTrials = 1500, kBallTrials = 8000, kMinPoints = 30;
+constexpr int kTrials = 1500, kBallTrials = 8000, kMinSurfacePoints = 30;
 constexpr double kFirstTolerance = 0.05;
 
 Points3 thinned(const Points3& points, std::size_t most) {
@@ -108,7 +108,7 @@ Points3 without_ground(const Points3& points, const ArtefactSpec& spec) {
   if (static_cast<double>(most) > kLeastShare * static_cast<double>(points.size()))
     std::copy_if(points.begin(), points.end(), std::back_inserter(rest),
                  [&](const Vector3d& p) { return std::abs(ground.distance(p, 0)) >= width; });
-  return rest.size() >= static_cast<std::size_t>(kMinPoints) ? rest : points;
+  return rest.size() >= static_cast<std::size_t>(kMinSurfacePoints) ? rest : points;
 }
 
 // ---- steps

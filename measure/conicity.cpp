@@ -8,11 +8,11 @@
 #include <cmath>
 
 #include "core/random.h"
+#include "measure/profile_formats.h"
 
 namespace lightstripe {
 namespace {
 
-constexpr double kDatumMm = 70;            // of the tread from the wheel's back
 constexpr double kReferenceMm = 3;         // the amplitude that limits speak of
 constexpr std::uint64_t kSeed = 0x636f6e;  // of the repeats
 
@@ -23,7 +23,7 @@ using Track = std::array<WheelOnRail, kSides>;
 Track track_of(const Profiles& wheels, const Profiles& rails, double gauge_mm, double back_to_back_mm) {
   Track track;
   for (std::size_t s = 0; s < kSides; ++s)
-    track[s] = {wheels[s].surface.table(), rails[s].surface.table(), back_to_back_mm / 2 + kDatumMm,
+    track[s] = {wheels[s].surface.table(), rails[s].surface.table(), back_to_back_mm / 2 + kTreadDatumMm,
                 gauge_mm / 2 - rails[s].gauge_face_mm};
   return track;
 }

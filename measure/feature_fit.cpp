@@ -43,8 +43,8 @@ double predicted_sigma(const FeaturePoints& points) {
 }
 
 /// Scatter, correlation and spread of the residuals that count, and the variance of one independent point.
-double describe(const FeaturePoints& points, const std::vector<double>& residuals,
-                const std::vector<double>& weights, int parameters, ShapeFit& out) {
+double add_fit(const FeaturePoints& points, const std::vector<double>& residuals,
+               const std::vector<double>& weights, int parameters, ShapeFit& out) {
   double squares = 0, sum = 0, low = 1e300, high = -1e300;
   std::vector<double> counting;
   for (std::size_t i = 0; i < residuals.size(); ++i) {
@@ -161,7 +161,7 @@ ShapeFit fit_line(const FeaturePoints& points) {
     line = weighted_line(points, weights);
   }
   ShapeFit out;
-  const double variance = describe(points, distances(points, line), weights, 2, out);
+  const double variance = add_fit(points, distances(points, line), weights, 2, out);
   double sum = 0, squares = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const double s = (points[i].position - line.middle).dot(line.along);
@@ -199,7 +199,7 @@ ShapeFit fit_arc(const FeaturePoints& points) {
   const std::vector<double> residuals = circle_residuals(points, middle, circle);
   ShapeFit out;
   out.kind = ShapeFit::Kind::kArc;
-  const double variance = describe(points, residuals, weights, 3, out);
+  const double variance = add_fit(points, residuals, weights, 3, out);
   const auto inverse = inverse_of(circle_normal_matrix(points, middle, circle, weights, residuals, gradient));
   if (variance < 0 || !inverse) return unknown("its points are no arc");
   out.parameters = Vector3d(circle.x() + middle.x(), circle.y() + middle.y(), circle.z());
@@ -233,7 +233,7 @@ ShapeFit fit_extreme(const FeaturePoints& points, int sign, double half_width_mm
   weights = tukey_weights(residuals);
   ShapeFit out;
   out.kind = ShapeFit::Kind::kPoint;
-  const double variance = describe(near, residuals, weights, 3, out);
+  const double variance = add_fit(near, residuals, weights, 3, out);
   Matrix3d H = Matrix3d::Zero();
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const Vector3d row(1, samples[i].t, samples[i].t * samples[i].t / 2);

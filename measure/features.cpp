@@ -8,12 +8,12 @@
 #include <functional>
 #include <numbers>
 
+#include "core/transform.h"
+
 namespace lightstripe {
 namespace {
 
 using Eigen::Vector2d;
-
-constexpr double kDegrees = 180 / std::numbers::pi;
 
 /// A feature as geometry, out of its parameters.
 struct Shape {
@@ -184,14 +184,14 @@ double distance(const Shape& a, const Shape& b) {
 /// Of two directions without sense, 0 to 90 degrees.
 double angle_between(const Shape& a, const Shape& b) {
   const double cross = a.along.x() * b.along.y() - a.along.y() * b.along.x();
-  return std::atan2(std::abs(cross), std::abs(a.along.dot(b.along))) * kDegrees;
+  return std::atan2(std::abs(cross), std::abs(a.along.dot(b.along))) / kDegree;
 }
 
 Function function_of(QuantityType type, std::size_t features) {
   switch (type) {
     case QuantityType::kAngle:
       if (features == 1)
-        return [](const Shapes& s) { return std::atan2(s[0].along.y(), s[0].along.x()) * kDegrees; };
+        return [](const Shapes& s) { return std::atan2(s[0].along.y(), s[0].along.x()) / kDegree; };
       return [](const Shapes& s) { return angle_between(s[0], s[1]); };
     case QuantityType::kRadius:
       return [](const Shapes& s) { return s[0].radius; };

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "core/transform.h"
 #include "measure/rail_head.h"
 #include "measure/robust_line.h"
 #include "measure/surface_fit.h"
@@ -14,8 +14,6 @@ namespace lightstripe {
 namespace {
 
 using Eigen::Vector2d;
-
-constexpr double kDegrees = 180 / std::numbers::pi;
 
 Estimate wear_of(const SurfaceFit& fit, const Registration& registration, const std::string& what) {
   if (!fit.known()) return Estimate::unknown(what + " " + fit.reason);
@@ -68,7 +66,7 @@ Estimate face_angle(const PlacedSection& placed, int side, double gauge_v) {
       sigma_of_sum(where_points_scatter(placed.registration.error, fit->rms, fit->num_samples), places,
                    influences(face, *fit, 1, 0, 1));
   const double turn = std::sqrt(placed.registration.covariance(0, 0));
-  return Estimate::known(-std::atan(fit->slope) * kDegrees, std::hypot(local, turn) * kDegrees);
+  return Estimate::known(-std::atan(fit->slope) / kDegree, std::hypot(local, turn) / kDegree);
 }
 
 /// A parabola over 10 mm either side: its vertex radius differs from the circle's by (10 / R)^2, 0.1 % at R
@@ -127,8 +125,8 @@ RailMeasurement measure_rail(const Section& section, const ReferenceShape& refer
                               registration, "top of the head");
   out.corner45_wear = corner_wear(placed, side);
   out.head_area_loss = head_area_loss(placed);
-  out.inclination = Estimate::known(-registration.reference_from_section.move.angle_rad * kDegrees,
-                                    std::sqrt(registration.covariance(0, 0)) * kDegrees);
+  out.inclination = Estimate::known(-registration.reference_from_section.move.angle_rad / kDegree,
+                                    std::sqrt(registration.covariance(0, 0)) / kDegree);
   out.lip = find_lip(placed, side, options.lip_mm);
   const HeadTop top = find_head_top(placed);
   out.crown_radius = crown_radius(placed, top);

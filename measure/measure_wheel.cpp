@@ -17,8 +17,6 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kMinScaleMm = 0.005;
-
 /// Weight of `point`, which must be an element of placed.points.
 double weight_of(const PlacedSection& placed, const Vector2d& point) {
   return placed.section[static_cast<std::size_t>(&point - placed.points.data())].weight;

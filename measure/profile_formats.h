@@ -15,6 +15,9 @@
 
 namespace lightstripe {
 
+/// Of a wheel: from the flange's back to the place of the tread where v is 0, mm.
+inline constexpr double kTreadDatumMm = 70;
+
 /// One recorded section, turned so that v is up. Rail: u, v as recorded. Wheel: u from the tread datum, i.e.
 /// the file's distance from the flange's back minus 70.
 struct RecordedProfile {

@@ -12,8 +12,6 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kDatumMm = 70;
-
 /// Median height of the points between two places; 0 if there are none.
 double height_between(const std::vector<Vector2d>& points, double from, double to) {
   std::vector<double> heights;
@@ -44,12 +42,12 @@ bool counts_from_datum(const std::vector<Vector2d>& points) {
 /// Makes x count from the flange's back, positive. Of a file that counts from the datum the flange is the end
 /// that differs more from the tread: its tip is over 20 mm away, the rim's edge a few.
 void count_from_back(std::vector<Vector2d>& points) {
-  constexpr double kTipFrom = kDatumMm - 22, kTipTo = kDatumMm - 10;  // distances from the datum
+  constexpr double kTipFrom = kTreadDatumMm - 22, kTipTo = kTreadDatumMm - 10;  // distances from the datum
   if (counts_from_datum(points)) {
     const double tread = height_between(points, -3, 3);
     const double left = std::abs(height_between(points, -kTipTo, -kTipFrom) - tread),
                  right = std::abs(height_between(points, kTipFrom, kTipTo) - tread);
-    for (Vector2d& p : points) p.x() = kDatumMm + (left >= right ? p.x() : -p.x());
+    for (Vector2d& p : points) p.x() = kTreadDatumMm + (left >= right ? p.x() : -p.x());
     return;
   }
   double sum = 0;
@@ -61,10 +59,10 @@ void count_from_back(std::vector<Vector2d>& points) {
 void turn_wheel(std::vector<Vector2d>& points) {
   count_from_back(points);
   const double flange = height_between(points, 8, 24),
-               tread = height_between(points, kDatumMm - 3, kDatumMm + 3);
+               tread = height_between(points, kTreadDatumMm - 3, kTreadDatumMm + 3);
   if (flange < tread)
     for (Vector2d& p : points) p.y() = -p.y();
-  for (Vector2d& p : points) p.x() -= kDatumMm;
+  for (Vector2d& p : points) p.x() -= kTreadDatumMm;
 }
 
 }  // namespace

@@ -15,7 +15,6 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kMinScaleMm = 0.005;
 constexpr double kSectorRad = std::numbers::pi / 180;
 constexpr double kCentreDepthMm = 20;  // of the sectors' centre below the top
 

@@ -16,7 +16,7 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kTrusted = 0.1;  // share of the largest weight
+constexpr double kCounts = 0.1;  // share of the largest weight
 
 struct Weighted {
   VectorXd c;
@@ -71,7 +71,7 @@ void reweight(const std::vector<Sample1>& samples, const VectorXd& c, double min
   for (const Sample1& s : samples) heaviest = std::max(heaviest, s.weight);
   std::vector<double> trusted;
   for (std::size_t i = 0; i < samples.size(); ++i)
-    if (samples[i].weight > kTrusted * heaviest) trusted.push_back(residuals[i]);
+    if (samples[i].weight > kCounts * heaviest) trusted.push_back(residuals[i]);
   const double scale = std::max(min_scale, robust_scale(std::move(trusted), degree + 1));
   for (std::size_t i = 0; i < samples.size(); ++i)
     weights[i] = samples[i].weight / heaviest * tukey_weight(residuals[i] / scale);
@@ -89,7 +89,7 @@ std::optional<PolynomialFit> fit_polynomial(const std::vector<Sample1>& samples,
   double heaviest = 0;
   for (const Sample1& s : samples) heaviest = std::max(heaviest, s.weight);
   for (const Sample1& s : samples)
-    if (s.weight > kTrusted * heaviest) values.push_back(s.value);
+    if (s.weight > kCounts * heaviest) values.push_back(s.value);
   if (values.empty()) return std::nullopt;
   start(0) = median(values);
   reweight(samples, start, min_scale, weights);
@@ -107,7 +107,7 @@ std::optional<PolynomialFit> fit_polynomial(const std::vector<Sample1>& samples,
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const double r = samples[i].value - fit->c.dot(powers(samples[i].t, degree));
     squares += weights[i] * r * r, sum += weights[i];
-    out.num_samples += weights[i] > kTrusted ? 1 : 0;
+    out.num_samples += weights[i] > kCounts ? 1 : 0;
   }
   out.rms = std::sqrt(squares / std::max(sum, 1e-12));
   if (out.num_samples < degree + 3) return std::nullopt;

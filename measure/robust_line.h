@@ -8,6 +8,9 @@
 
 namespace lightstripe {
 
+/// Below this robust scale a fit to recorded points does not go: instruments write hundredths of a mm.
+inline constexpr double kMinScaleMm = 0.005;
+
 struct Sample1 {
   double t = 0, value = 0;
   double weight = 1;  ///< beforehand, 0 .. 1

@@ -14,7 +14,7 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kFloorMm = 0.002;  // robust scale: below what any scan scatters by
+constexpr double kScanFloorMm = 0.002;  // robust scale: below what any scan scatters by
 
 Vector3d registration_jacobian(const SurfaceFit& fit) {
   const Vector2d &p = fit.place, &w = fit.response;
@@ -95,7 +95,7 @@ SurfaceFit fit_surface(const PlacedSection& placed, const SurfaceProbe& probe) {
   const auto before = placed.reference.surface_along(probe.origin, probe.outwards, -kDerivativeMm);
   if (!here || !after || !before) out.reason = "the reference has no surface there";
   if (!out.known()) return out;
-  const auto fit = fit_polynomial(differences, probe.degree, kFloorMm);
+  const auto fit = fit_polynomial(differences, probe.degree, kScanFloorMm);
   if (!fit) {
     out.reason = "points do not agree";
     return out;

@@ -9,10 +9,8 @@
 namespace lightstripe {
 namespace {
 
-constexpr double kDatumMm = 70;
-
 double file_x(const RecordedProfile& profile, const Eigen::Vector2d& p) {
-  return profile.kind == ObjectKind::kWheel ? p.x() + kDatumMm : p.x();
+  return profile.kind == ObjectKind::kWheel ? p.x() + kTreadDatumMm : p.x();
 }
 
 std::string one_line(std::string text) {

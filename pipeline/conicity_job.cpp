@@ -47,12 +47,6 @@ std::vector<Vector2d> read_csv_points(const std::string& path) {
   return points;
 }
 
-RecordedProfile recorded_of(const std::string& path, ProfileFormat format, ObjectKind kind) {
-  RecordedProfile profile = read_recorded(path, format, kind);
-  if (profile.kind != kind) throw Error(path, "is a " + kind_name(profile.kind), "give a " + kind_name(kind));
-  return profile;
-}
-
 Source read_source(const std::string& source, ObjectKind kind) {
   Source out;
   out.measured = true;
@@ -60,7 +54,7 @@ Source read_source(const std::string& source, ObjectKind kind) {
     out.points = read_csv_points(source);
     out.own_level = true;
   } else if (const auto format = profile_format(source)) {
-    out.points = recorded_of(source, *format, kind).points;
+    out.points = read_recorded(source, *format, kind).points;
   } else {
     const NominalProfile nominal = read_nominal_profile(source);
     if (nominal.kind != kind_name(kind))

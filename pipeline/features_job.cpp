@@ -13,17 +13,13 @@
 #include "measure/section_bends.h"
 #include "parallel/parallel.h"
 #include "pipeline/job.h"
+#include "pipeline/measurement_table.h"
 #include "pipeline/run_record.h"
 
 namespace lightstripe {
 namespace {
 
-void append_estimate(std::string& out, const Estimate& estimate) {
-  out.push_back(',');
-  if (estimate.value) append_decimals(out, *estimate.value, 5);
-  out.push_back(',');
-  if (estimate.value && estimate.sigma) append_decimals(out, *estimate.sigma, 6);
-}
+constexpr int kFeatureDecimals = 5;
 
 std::string missing_of(const MeasuredFeatures& row, const FeatureFile& file) {
   std::string out;
@@ -42,7 +38,7 @@ std::string along_table(const FeaturesResult& result) {
   std::string out = "name,type,value,sigma,reason\n";
   for (std::size_t i = 0; i < result.along.size(); ++i) {
     out += csv_cell(result.file.along[i].name) + ',' + std::string(enum_name(result.file.along[i].type));
-    append_estimate(out, result.along[i]);
+    append_estimate(out, result.along[i], kFeatureDecimals);
     out += ',' + csv_cell(result.along[i].reason) + '\n';
   }
   return out;
@@ -59,7 +55,7 @@ std::string features_table(const FeaturesResult& result) {
     append_integer(out, row.frame);
     out.push_back(',');
     append_decimals(out, row.travel, 6);
-    for (const Estimate& estimate : row.quantities) append_estimate(out, estimate);
+    for (const Estimate& estimate : row.quantities) append_estimate(out, estimate, kFeatureDecimals);
     const std::string missing = missing_of(row, result.file);
     out += missing.empty() ? ",ok," : ",incomplete,";
     out += row.verdict + ',' + (missing.empty() ? "" : csv_cell(missing)) + ',' +

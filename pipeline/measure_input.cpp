@@ -20,20 +20,13 @@
 namespace lightstripe {
 namespace {
 
-RecordedProfile recorded_of(const std::string& path, ProfileFormat format, ObjectKind kind) {
-  RecordedProfile profile = read_recorded(path, format, kind);
-  if (profile.kind != kind)
-    throw Error(path, "is a " + kind_name(profile.kind), "give --kind " + kind_name(profile.kind));
-  return profile;
-}
-
 /// The radius where the file's v is 0: its figure is that of the tread at WheelDiameterTaperline, which need
 /// not lie at v = 0.
 std::optional<double> radius_where_v_is_0(const RecordedProfile& recorded) {
-  constexpr double kDatumMm = 70, kHalfWidthMm = 4, kDeepMm = 20, kMinScaleMm = 0.005;
+  constexpr double kHalfWidthMm = 4, kDeepMm = 20;
   const auto diameter = recorded.number("DiameterTaperline");
   if (!diameter || !(*diameter > 0)) return std::nullopt;
-  const double u = recorded.number("WheelDiameterTaperline").value_or(kDatumMm) - kDatumMm;
+  const double u = recorded.number("WheelDiameterTaperline").value_or(kTreadDatumMm) - kTreadDatumMm;
   std::vector<Sample1> tread;
   for (const Eigen::Vector2d& p : recorded.points)
     if (std::abs(p.x() - u) < kHalfWidthMm && std::abs(p.y()) < kDeepMm)
@@ -97,7 +90,7 @@ std::optional<double> median_rms(const std::vector<Profile>& profiles, const std
 std::string kind_name(ObjectKind kind) { return kind == ObjectKind::kRail ? "rail" : "wheel"; }
 
 MeasureInput read_measure_input(const std::string& path, ObjectKind kind) {
-  if (const auto format = profile_format(path)) return input_of(recorded_of(path, *format, kind), path);
+  if (const auto format = profile_format(path)) return input_of(read_recorded(path, *format, kind), path);
   MeasureInput input;
   input.file = path;
   input.kind = kind;
@@ -114,7 +107,7 @@ MeasureInput read_measure_input(const std::string& path, ObjectKind kind) {
 ReferenceShape read_reference(const std::string& nominal, ObjectKind kind) {
   const std::string name = !nominal.empty() ? nominal : kind == ObjectKind::kRail ? "60E1" : "S1002";
   if (const auto format = profile_format(name)) {
-    const Section baseline = section_of(recorded_of(name, *format, kind));
+    const Section baseline = section_of(read_recorded(name, *format, kind));
     const Outline chain = outline_of_section(baseline);
     // Material lies on the left of an outline's passage: a rail's head runs from right to left, a wheel from
     // field to flange.

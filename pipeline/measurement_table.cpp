@@ -10,12 +10,7 @@
 namespace lightstripe {
 namespace {
 
-void append_estimate(std::string& out, const Estimate& estimate) {
-  out.push_back(',');
-  if (estimate.value) append_decimals(out, *estimate.value, 4);
-  out.push_back(',');
-  if (estimate.value && estimate.sigma) append_decimals(out, *estimate.sigma, 5);
-}
+constexpr int kDecimals = 4;
 
 void append_row(std::string& out, const MeasuredFrame& row, const std::string& verdict,
                 const std::string& calibration_error) {
@@ -23,18 +18,25 @@ void append_row(std::string& out, const MeasuredFrame& row, const std::string& v
   out.push_back(',');
   append_decimals(out, row.travel, 6);
   out += ',' + csv_cell(row.nominal);
-  for (const NamedEstimate& one : row.estimates) append_estimate(out, one.estimate);
+  for (const NamedEstimate& one : row.estimates) append_estimate(out, one.estimate, kDecimals);
   out.push_back(',');
   if (row.registration.num_points > 0) append_decimals(out, row.registration.rms_mm, 5);
   out.push_back(',');
   append_integer(out, row.registration.num_points);
   out += ',' + csv_cell(row.status);
-  for (const NamedEstimate& one : row.extras) append_estimate(out, one.estimate);
+  for (const NamedEstimate& one : row.extras) append_estimate(out, one.estimate, kDecimals);
   const std::string missing = missing_of(row);
   out += ',' + verdict + ',' + (missing.empty() ? "" : csv_cell(missing)) + ',' + calibration_error + '\n';
 }
 
 }  // namespace
+
+void append_estimate(std::string& out, const Estimate& estimate, int decimals) {
+  out.push_back(',');
+  if (estimate.value) append_decimals(out, *estimate.value, decimals);
+  out.push_back(',');
+  if (estimate.value && estimate.sigma) append_decimals(out, *estimate.sigma, decimals + 1);
+}
 
 std::string missing_of(const MeasuredFrame& row) {
   std::string out;

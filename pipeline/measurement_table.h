@@ -17,6 +17,10 @@ std::string measurement_table(const std::vector<MeasuredFrame>& rows, ObjectKind
                               const std::vector<std::string>& extras,
                               const std::vector<std::string>& verdicts, const std::string& calibration_error);
 
+/// ",value,sigma" with so many decimals of the value and one more of its sigma; empty cells where it is not
+/// known.
+void append_estimate(std::string& out, const Estimate& estimate, int decimals);
+
 /// "side_wear: gauge face not seen | head_width: ..."; empty where all is known.
 std::string missing_of(const MeasuredFrame& row);
 

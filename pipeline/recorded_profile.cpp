@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pipeline/recorded_profile.h"
 
+#include <fmt/format.h>
+
 #include <fstream>
 
 #include "core/error.h"
@@ -13,7 +15,12 @@ RecordedProfile read_recorded(const std::string& path, ProfileFormat format, Obj
   refuse_special_file(path);
   std::ifstream in(path, std::ios::binary);
   if (!in) throw Error(path, "cannot be read", "check the name");
-  return format == ProfileFormat::kMiniProf ? read_miniprof(in, path, kind) : read_simpack(in, path);
+  RecordedProfile profile =
+      format == ProfileFormat::kMiniProf ? read_miniprof(in, path, kind) : read_simpack(in, path);
+  if (profile.kind != kind)
+    throw Error(path, fmt::format("is a {}, not a {}", kind_name(profile.kind), kind_name(kind)),
+                fmt::format("take it as a {}, or give another file", kind_name(profile.kind)));
+  return profile;
 }
 
 }  // namespace lightstripe

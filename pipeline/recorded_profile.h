@@ -9,7 +9,8 @@
 
 namespace lightstripe {
 
-/// `kind`: of a file that does not say it. An Error where the file cannot be read, or is none of the format.
+/// A section of this kind, which is also that of a file that does not say it. An Error where the file cannot
+/// be read, is none of the format, or holds the other kind.
 RecordedProfile read_recorded(const std::string& path, ProfileFormat format, ObjectKind kind);
 
 }  // namespace lightstripe

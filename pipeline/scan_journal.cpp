@@ -15,7 +15,7 @@
 namespace lightstripe {
 namespace {
 
-constexpr std::string_view kHead = "lightstripe-journal/2 ";
+constexpr std::string_view kJournalHead = "lightstripe-journal/2 ";
 constexpr std::size_t kEntryNumbers = 11;
 
 /// Numbers between blanks; nothing where one is none or their number is another.
@@ -80,7 +80,9 @@ std::string sealed_line(const std::string& line, std::uint32_t& chain) {
   return fmt::format("{} {:08x}\n", text, chain);
 }
 
-std::string journal_head(const std::string& fingerprint) { return fmt::format("{}{}\n", kHead, fingerprint); }
+std::string journal_head(const std::string& fingerprint) {
+  return fmt::format("{}{}\n", kJournalHead, fingerprint);
+}
 
 std::string journal_skip(const NamedSkip& skip) {
   std::string reason = skip.picture.reason;
@@ -104,8 +106,8 @@ std::optional<JournalState> read_journal(const std::filesystem::path& path) {
   std::uint32_t chain = 0;
   for (std::size_t at = 0, end; (end = text.find('\n', at)) != std::string::npos; at = end + 1) {
     const std::string_view line = unsealed(std::string_view(text).substr(at, end - at), chain, path);
-    if (at == 0 && line.substr(0, kHead.size()) == kHead)
-      state.fingerprint = line.substr(kHead.size());
+    if (at == 0 && line.substr(0, kJournalHead.size()) == kJournalHead)
+      state.fingerprint = line.substr(kJournalHead.size());
     else if (line == "complete")
       state.complete = true;
     else if (auto skip = line.substr(0, 8) == "skipped " ? skip_of(line.substr(8)) : std::nullopt)

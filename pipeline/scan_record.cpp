@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// The record's own part, in the order of the file.
-struct RecordFields {
+struct ScanFields {
   std::string frames;
   bool complete = true;
   std::optional<std::string> without_position, without_picture, travel_interpolated;
@@ -26,7 +26,7 @@ struct RecordFields {
   std::optional<std::int64_t> pictures_skipped;
 };
 template <class V>
-void visit_fields(V&& v, RecordFields& o) {
+void visit_fields(V&& v, ScanFields& o) {
   v("frames", o.frames), v("complete", o.complete);
   v("without_position", o.without_position), v("without_picture", o.without_picture);
   v("travel_interpolated", o.travel_interpolated), v("origin", o.origin), v("warnings", o.warnings);
@@ -45,7 +45,7 @@ std::vector<fs::path> inputs_of(const ScanRun& run) {
 }
 
 void write_record(const ScanRun& run, const ReconstructResult& result, const fs::path& cloud) {
-  RecordFields fields;
+  ScanFields fields;
   fields.frames =
       fmt::format("{}:{}", result.first_frame, result.summary.stopped ? result.end_frame : run.end_frame);
   fields.complete = !result.summary.stopped;

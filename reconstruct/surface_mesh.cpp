@@ -20,7 +20,7 @@ namespace {
 using Eigen::Vector3d;
 using Index = std::uint32_t;
 
-constexpr double kUsualSteps = 3;
+constexpr double kMeshSteps = 3;
 
 /// A stretch of a stripe without gaps: vertices of the mesh in order.
 struct Piece {
@@ -153,7 +153,7 @@ SurfaceMesh mesh_cloud(const std::filesystem::path& cloud, const Rig& rig, const
   const CloudSpacing spacing = cloud_spacing(cloud);
   mesh.max_edge_mm = options.max_edge_mm > 0
                          ? options.max_edge_mm
-                         : kUsualSteps * std::max(spacing.between_frames_mm, spacing.along_stripe_mm);
+                         : kMeshSteps * std::max(spacing.between_frames_mm, spacing.along_stripe_mm);
   Zipper zipper(mesh, options);
   CloudReader reader(cloud);
   std::vector<CloudPoint> frame;

@@ -3,15 +3,19 @@
 // A page of facts, tables and line charts, for reports that need no script of their own.
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace lightstripe {
 
+/// In y: the line breaks here.
+inline constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
+
 struct ChartLine {
   std::string name;          ///< in the legend; empty: not named
-  std::vector<double> x, y;  ///< a NaN in y breaks the line
+  std::vector<double> x, y;  ///< kNoValue in y breaks the line
   std::vector<double> half;  ///< half width of a band about the line; empty: none
   bool dots = false;         ///< points instead of a line
 };

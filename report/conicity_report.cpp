@@ -6,7 +6,6 @@
 
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "report/charts_page.h"
@@ -14,13 +13,12 @@
 namespace lightstripe {
 namespace {
 
-constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
 constexpr std::array<const char*, kSides> kName{"left", "right"};
 
 LineChart conicity_chart(const ConicityJob& job, const Conicity& conicity) {
   ChartLine line{"", {}, {}, {}, false};
   for (const ConicityRow& row : conicity.rows) {
-    line.x.push_back(row.y_mm), line.y.push_back(row.tan_gamma_e.value_or(kNothing));
+    line.x.push_back(row.y_mm), line.y.push_back(row.tan_gamma_e.value_or(kNoValue));
     line.half.push_back(2 * row.sigma.value_or(0));
   }
   LineChart chart{"Equivalent conicity (band: two sigma)", "amplitude, mm", "tan gamma_e", {line}, {}, false};

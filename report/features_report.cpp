@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "core/counted.h"
@@ -15,8 +14,6 @@
 
 namespace lightstripe {
 namespace {
-
-constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
 
 /// One quantity over all sections; dashes where no section has it.
 std::vector<std::string> row_of(const FeaturesResult& result, std::size_t i) {
@@ -45,7 +42,7 @@ LineChart chart_of(const FeaturesResult& result, std::size_t i) {
   ChartLine line{"", {}, {}, {}, false};
   for (const MeasuredFeatures& row : result.rows) {
     const Estimate& e = row.quantities[i];
-    line.x.push_back(row.travel), line.y.push_back(e.value.value_or(kNothing));
+    line.x.push_back(row.travel), line.y.push_back(e.value.value_or(kNoValue));
     line.half.push_back(2 * e.sigma.value_or(0));
   }
   const QuantityRecipe& recipe = result.file.measurements[i];

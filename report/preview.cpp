@@ -15,13 +15,13 @@ namespace {
 
 constexpr int kMargin = 40;
 
-struct Span {
+struct Range {
   float low, high;
 };
 
 /// The middle 99.8 % of the values, and no farther from the middle 90 % than these span: stray points must
 /// not shrink the picture.
-Span robust_span(std::vector<float> values) {
+Range robust_span(std::vector<float> values) {
   const auto at = [&](double share) { return quantile(values, share); };
   const float low = at(0.05), high = at(0.95), reach = std::max(high - low, 1e-3F);
   return {std::max(at(0.001), low - reach), std::min(at(0.999), high + reach) + 1e-3F};
@@ -64,8 +64,8 @@ cv::Mat3b height_colors() {
 /// Each point as 2 x 2 pixels, coloured by z; the nearest to the viewer stays.
 void draw_points(cv::Mat3b& canvas, const std::vector<Eigen::Vector3f>& points,
                  const std::vector<Eigen::Vector3f>& seen) {
-  const Span across = robust_span(coordinate(seen, 0)), up = robust_span(coordinate(seen, 1));
-  const Span height = robust_span(coordinate(points, 2));
+  const Range across = robust_span(coordinate(seen, 0)), up = robust_span(coordinate(seen, 1));
+  const Range height = robust_span(coordinate(points, 2));
   const auto room = [](int pixels) { return static_cast<float>(pixels - 2 * kMargin); };
   const float scale =
       std::min(room(canvas.cols) / (across.high - across.low), room(canvas.rows) / (up.high - up.low));

@@ -10,6 +10,7 @@
 
 #include "core/error.h"
 #include "core/random.h"
+#include "core/transform.h"
 #include "simulate/scene_world.h"
 
 namespace lightstripe {
@@ -17,7 +18,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kGoldenAngle = 137.50776405003785 * kDegree;  // spreads the tilts' directions evenly
 constexpr int kAttempts = 20000;
 constexpr std::uint64_t kPoseStream = 0x706f7365;  // apart from the images' noise

@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "simulate/scene_world.h"
 
-#include <numbers>
-
+#include "core/transform.h"
 #include "io/nominal_outlines.h"
 #include "simulate/worn_rail.h"
 #include "simulate/worn_wheel.h"
@@ -15,8 +14,6 @@ using Eigen::AngleAxisd;
 using Eigen::Quaterniond;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 /// u -> -u; closed and counterclockwise as before.
 Outline mirror_image(const Outline& outline) {

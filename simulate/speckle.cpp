@@ -49,7 +49,7 @@ std::vector<float> pupil_kernel(double grain_px) {
 }
 
 /// One field's real or imaginary part, or the pattern, over a tile.
-using Plane = std::vector<float>;
+using Values = std::vector<float>;
 
 /// Sums over one tile at a time, in memory that is kept.
 class TilePattern {
@@ -58,11 +58,11 @@ class TilePattern {
       : weights_(look_weights(speckle.contrast)), kernel_(pupil_kernel(speckle.grain_px)), key_(key) {}
 
   /// The pattern over the tile whose first pixel is (x0, y0), rows of kTile values.
-  const Plane& at(int x0, int y0) {
+  const Values& at(int x0, int y0) {
     pattern_.assign(kTile * kTile, 0.0F);
     for (std::size_t look = 0; look < weights_.size(); ++look) {
       draw_field(x0 - margin(), y0 - margin(), scatter_bits(key_ ^ scatter_bits(look + 1)));
-      for (const Plane* part : {&real_, &imaginary_}) add_square(*part, weights_[look]);
+      for (const Values* part : {&real_, &imaginary_}) add_square(*part, weights_[look]);
     }
     return pattern_;
   }
@@ -91,7 +91,7 @@ class TilePattern {
   }
 
   /// Adds the weighted square of the low-passed part.
-  void add_square(const Plane& part, float weight) {
+  void add_square(const Values& part, float weight) {
     const int width = side(), taps = static_cast<int>(kernel_.size());
     columns_.assign(static_cast<std::size_t>(kTile * width), 0.0F);
     for (int y = 0; y < kTile; ++y)
@@ -114,7 +114,7 @@ class TilePattern {
   std::vector<float> weights_;  ///< one a look
   std::vector<float> kernel_;
   std::uint64_t key_;
-  Plane real_, imaginary_, columns_, pattern_;
+  Values real_, imaginary_, columns_, pattern_;
 };
 
 bool is_lit(const Image<float>& laser, int x0, int y0) {
@@ -135,7 +135,7 @@ void add_speckle(const Image<float>& laser, const Speckle& speckle, std::uint64_
   for (int y0 = 0; y0 < laser.height; y0 += kTile)
     for (int x0 = 0; x0 < laser.width; x0 += kTile) {
       if (!is_lit(laser, x0, y0)) continue;
-      const Plane& pattern = tile.at(x0, y0);
+      const Values& pattern = tile.at(x0, y0);
       for (int y = y0; y < std::min(y0 + kTile, laser.height); ++y)
         for (int x = x0; x < std::min(x0 + kTile, laser.width); ++x)
           light(x, y) += laser(x, y) * (pattern[static_cast<std::size_t>((y - y0) * kTile + x - x0)] - 1);

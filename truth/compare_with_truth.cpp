@@ -6,11 +6,11 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <set>
 
 #include "core/error.h"
 #include "core/polyline_search.h"
+#include "core/transform.h"
 #include "io/csv_reader.h"
 #include "io/rig_file.h"
 #include "pipeline/measurement_table.h"
@@ -23,12 +23,11 @@ namespace fs = std::filesystem;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kDegrees = 180 / std::numbers::pi;
 constexpr double kFarMm = 1.0;  // a point farther off than this is wrong, not inaccurate
 constexpr double kSearchMm = 5.0;
 
 double angle_deg(const Vector3d& a, const Vector3d& b) {
-  return std::atan2(a.cross(b).norm(), a.dot(b)) * kDegrees;
+  return std::atan2(a.cross(b).norm(), a.dot(b)) / kDegree;
 }
 
 SensorError compare_sensors(const Sensor& sensor, const Sensor& truth) {
@@ -140,7 +139,7 @@ RigError compare_rigs(const Rig& rig, const Rig& truth) {
     const Rigid3 true_seen = true_first.inverse() * truth.sensors[i].rig_from_camera;
     error.baseline_mm = std::max(error.baseline_mm, (seen.translation - true_seen.translation).norm());
     error.baseline_deg = std::max(error.baseline_deg,
-                                  rotation_angle(seen.rotation.conjugate() * true_seen.rotation) * kDegrees);
+                                  rotation_angle(seen.rotation.conjugate() * true_seen.rotation) / kDegree);
   }
   error.travel_deg = angle_deg(first.rotation.conjugate() * motion_direction(rig.motion),
                                true_first.rotation.conjugate() * motion_direction(truth.motion));

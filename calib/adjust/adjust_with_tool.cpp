@@ -4,9 +4,8 @@
 
 #include <fmt/format.h>
 
-#include <numbers>
-
 #include "calib/adjust/adjustment_rounds.h"
+#include "core/transform.h"
 
 namespace lightstripe {
 namespace {
@@ -23,7 +22,6 @@ bool solve_and_estimate(AdjustmentRounds& rounds, bool robust) {
 
 /// Takes the contradicting poses out; one sentence each.
 std::vector<std::string> leave_out(const SessionViews& session, AdjustmentRounds& rounds) {
-  constexpr double kDegree = std::numbers::pi / 180;
   std::vector<std::string> sentences;
   std::vector<ToolMeasurement> kept;
   for (const ToolResidual& one : rounds.tools) {

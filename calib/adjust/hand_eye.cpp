@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <opencv2/calib3d.hpp>
 
 #include "calib/adjust/parameter_blocks.h"
@@ -21,6 +20,7 @@
 #include "core/counted.h"
 #include "core/linear_algebra.h"
 #include "core/robust.h"
+#include "core/transform.h"
 
 namespace lightstripe {
 namespace {
@@ -29,8 +29,7 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 
-constexpr double kDegree = std::numbers::pi / 180;
-constexpr std::size_t kMinViews = 5;
+constexpr std::size_t kMinPoses = 5;
 
 struct Block {
   PoseBlock values;
@@ -116,11 +115,11 @@ ToolSpread spread_of(const std::vector<ToolView>& views, const std::vector<bool>
 
 void refuse_standing_tool(const std::vector<ToolView>& views) {
   constexpr double kMinTurn = 5 * kDegree;
-  if (views.size() < kMinViews)
+  if (views.size() < kMinPoses)
     throw NotUsable(
         fmt::format("motion: the board was found in {} with a pose of the tool; at least {} are "
                     "needed, better 20",
-                    counted(views.size(), "picture"), kMinViews));
+                    counted(views.size(), "picture"), kMinPoses));
   Matrix3d axes = Matrix3d::Zero();
   double largest = 0;
   for (const auto& view : views) {

@@ -6,10 +6,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "core/counted.h"
 #include "core/error.h"
+#include "core/transform.h"
 
 namespace lightstripe {
 namespace {
@@ -17,7 +17,6 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr int kMinViews = 3;
-constexpr double kDegree = std::numbers::pi / 180;
 
 SessionView measured(const BoardView& view, int sensor, const Target& target, int laser_planes) {
   LIGHTSTRIPE_CHECK(static_cast<int>(view.corners.size()) == target.num_corners(),

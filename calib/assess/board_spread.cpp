@@ -4,15 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "core/transform.h"
 
 namespace lightstripe {
 namespace {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 Vector2d pixel_of(const SessionViews& session, const Residual& m) {
   const auto& point = session.views[m.view].stripes[static_cast<std::size_t>(m.plane)][m.index];

@@ -11,7 +11,8 @@
 namespace lightstripe {
 namespace {
 
-constexpr int kMinViews = 5;  // of a sensor in a half: fewer say more about their number than about the model
+constexpr int kMinViewsOfHalf =
+    5;  // of a sensor in a half: fewer say more about their number than about the model
 
 /// Every other pose, and every other position of the travelling board.
 SessionViews half_of(const SessionViews& all, int half) {
@@ -36,7 +37,7 @@ std::string too_small(const SessionViews& half) {
       ++count[static_cast<std::size_t>(view.sensor)];
   }
   for (std::size_t s = 0; s < count.size(); ++s)
-    if (count[s] < kMinViews) return "sensor " + half.sensor_names[s] + " has fewer than 10 views";
+    if (count[s] < kMinViewsOfHalf) return "sensor " + half.sensor_names[s] + " has fewer than 10 views";
   if (half.motion != MotionType::kNone && positions < 2) return "the motion has fewer than 4 views";
   return {};
 }

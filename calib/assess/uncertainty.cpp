@@ -8,20 +8,18 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <optional>
 #include <utility>
 
 #include "calib/adjust/rig_frame.h"
 #include "core/linear_algebra.h"
+#include "core/transform.h"
 
 namespace lightstripe {
 namespace {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 /// d f(state) / d(shared unknowns) by central differences of a twentieth of a sigma.
 template <class F>

@@ -96,8 +96,8 @@ double height_px(const Tag& tag) {
   return std::abs(x.x() * y.y() - x.y() * y.x()) / std::max(x.norm(), y.norm());
 }
 
-void refine(const cv::Mat& gray, const Target& target, const std::vector<Tag>& tags,
-            std::vector<Vector2d>& corners) {
+void refine_tag_corners(const cv::Mat& gray, const Target& target, const std::vector<Tag>& tags,
+                        std::vector<Vector2d>& corners) {
   for (const Tag& tag : tags) {
     const double side = (tag.corners[1] - tag.corners[0]).norm();
     // The window stays clear of the next corner, a gap away, and of the tag's bits, along the tag's shorter
@@ -150,7 +150,7 @@ BoardDetection detect_aprilgrid(const cv::Mat& gray, const Target& target) {
   }
   result.corners.assign(static_cast<std::size_t>(target.num_corners()), unseen_corner());
   place_corners(tags, *map, target, result.corners);
-  refine(gray, target, tags, result.corners);
+  refine_tag_corners(gray, target, tags, result.corners);
   result.found =
       std::count_if(result.corners.begin(), result.corners.end(), is_seen) >= std::ptrdiff_t{4} * kMinTags;
   if (!result.found) {

@@ -23,7 +23,7 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr int kMinCorners = 8;
-constexpr double kRefineWindow = 0.8;  // half the window, as a share of the gap between corner and markers
+constexpr double kMarkerWindow = 0.8;  // half the window, as a share of the gap between corner and markers
 
 bool on_one_line(const std::vector<Vector2d>& corners, const Target& target) {
   const std::vector<Vector2d> seen = seen_corners(corners, target).board;
@@ -48,7 +48,7 @@ double square_px(const std::vector<Vector2d>& corners, const Target& target, int
   return nearest;
 }
 
-void refine(const cv::Mat& gray, const Target& target, std::vector<Vector2d>& corners) {
+void refine_between_markers(const cv::Mat& gray, const Target& target, std::vector<Vector2d>& corners) {
   const auto rough = corners;
   for (int i = 0; i < target.num_corners(); ++i) {
     auto& corner = corners[static_cast<std::size_t>(i)];
@@ -59,7 +59,7 @@ void refine(const cv::Mat& gray, const Target& target, std::vector<Vector2d>& co
       continue;
     }
     const double gap_px = side * (target.pitch_x - target.marker_mm) / 2 / target.pitch_x;
-    const int half = std::max(2, static_cast<int>(kRefineWindow * gap_px));
+    const int half = std::max(2, static_cast<int>(kMarkerWindow * gap_px));
     std::vector<cv::Point2f> point{
         cv::Point2f(static_cast<float>(corner.x()), static_cast<float>(corner.y()))};
     cv::cornerSubPix(gray, point, cv::Size(half, half), cv::Size(-1, -1),
@@ -90,7 +90,7 @@ BoardDetection detect_charuco(const cv::Mat& gray, const Target& target) {
     const auto p = corners.at<cv::Point2f>(i);
     result.corners[static_cast<std::size_t>(corner_ids.at<int>(i))] = {p.x, p.y};
   }
-  refine(gray, target, result.corners);
+  refine_between_markers(gray, target, result.corners);
   const auto seen = std::count_if(result.corners.begin(), result.corners.end(), is_seen);
   result.found = seen >= kMinCorners && !on_one_line(result.corners, target);
   if (!result.found) {

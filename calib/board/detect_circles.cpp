@@ -121,7 +121,7 @@ std::optional<Disc> measured(const cv::Mat& gray, const Vector2d& start, double 
 
 /// Moves the corners to the discs' centres of gravity; returns the discs' median diameter, mm, 0 where one of
 /// them cannot be measured.
-double refine(const cv::Mat& gray, const Target& target, Corners& corners) {
+double refine_circles(const cv::Mat& gray, const Target& target, Corners& corners) {
   const auto rough = corners;
   std::vector<double> areas;
   for (std::size_t i = 0; i < corners.size(); ++i) {
@@ -150,7 +150,7 @@ BoardDetection detect_circles(const cv::Mat& gray, const Target& target) {
   if (!located) located = locate_circles(small, target, false);
   if (located) {
     *located = enlarged(std::move(*located), factor);
-    result.circle_mm = refine(gray, target, *located);
+    result.circle_mm = refine_circles(gray, target, *located);
     if (const auto listed = in_unique_order(*located, target); listed && result.circle_mm > 0) {
       result.found = true;
       result.corners = *listed;

@@ -13,16 +13,16 @@ namespace lightstripe {
 namespace {
 
 using Eigen::Vector2d;
-using Line = std::vector<Vector2d>;
+using CornerLine = std::vector<Vector2d>;
 
 /// The corners along one side of a grid, and those of the next line inside.
 struct Side {
-  Line edge, inner;
+  CornerLine edge, inner;
 };
 
-std::array<Side, 4> sides_of(const Line& corners, int columns, int rows) {
+std::array<Side, 4> sides_of(const CornerLine& corners, int columns, int rows) {
   const auto line = [&](bool along_x, int at) {
-    Line places;
+    CornerLine places;
     for (int i = 0; i < (along_x ? columns : rows); ++i)
       places.push_back(corners[static_cast<std::size_t>(along_x ? at * columns + i : i * columns + at)]);
     return places;
@@ -75,7 +75,7 @@ bool is_other_board(const cv::Mat& gray, const CornerGrid& grid, const Target& t
   const int c = grid.columns, r = grid.rows;
   if ((c == target.columns && r == target.rows) || (r == target.columns && c == target.rows)) return false;
   if (grid.count() < (1 - kMissing) * c * r || c < 3 || r < 3) return false;
-  Line corners;
+  CornerLine corners;
   for (const auto& cell : grid.cells) corners.push_back(cell.value_or(Vector2d::Constant(std::nan(""))));
   Target seen;
   seen.columns = c, seen.rows = r, seen.pitch_x = seen.pitch_y = 1;
@@ -84,14 +84,14 @@ bool is_other_board(const cv::Mat& gray, const CornerGrid& grid, const Target& t
   if (!fits_in(c, r, target) && !fits_in(r, c, target)) return true;  // the target is a part of it at most
   const auto sides = sides_of(corners, c, r);
   return std::all_of(sides.begin(), sides.end(), [&](const Side& side) {
-    const auto seen_all = [](const Line& line) {
+    const auto seen_all = [](const CornerLine& line) {
       return std::all_of(line.begin(), line.end(), [](const Vector2d& p) { return p.allFinite(); });
     };
     return seen_all(side.edge) && seen_all(side.inner) && ends(gray, side);
   });
 }
 
-bool has_squares_beyond(const cv::Mat& gray, const Line& corners, const Target& target) {
+bool has_squares_beyond(const cv::Mat& gray, const CornerLine& corners, const Target& target) {
   constexpr double kLeast = 0.2;    // of the alternation inside: a rim has none, a clamp may hide half
   constexpr double kBeyond = 0.25;  // steps: boards are sold with last squares of half the width
   const auto sides = sides_of(corners, target.columns, target.rows);

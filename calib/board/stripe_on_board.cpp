@@ -37,7 +37,7 @@ constexpr double kLensBlurPx = 1.2;   // lens and pixel together
 constexpr double kMaxShiftPx = 0.03;  // of the centre by an albedo step, before a point is left out
 
 /// A stripe point with its place on the board.
-struct Placed {
+struct PointOnBoard {
   StripePoint point;
   Vector2d p_board;  ///< mm
   double mm_per_px;  ///< across the stripe, on the board
@@ -69,8 +69,9 @@ bool near_edge(const StripePoint& point, const Vector2d& p_board, const Eigen::M
   });
 }
 
-std::vector<Placed> on_board(const std::vector<Stripe>& stripes, const BoardMap& map, const Target& target) {
-  std::vector<Placed> placed;
+std::vector<PointOnBoard> on_board(const std::vector<Stripe>& stripes, const BoardMap& map,
+                                   const Target& target) {
+  std::vector<PointOnBoard> placed;
   for (const auto& stripe : stripes) {
     for (const auto& point : stripe.points) {
       if (point.flags & kStripeBridged) continue;
@@ -85,17 +86,19 @@ std::vector<Placed> on_board(const std::vector<Stripe>& stripes, const BoardMap&
 }
 
 /// A straight line on the board.
-struct Line {
+struct LaserLine {
   Vector2d point, normal;
-  double distance_px(const Placed& p) const { return std::abs(normal.dot(p.p_board - point)) / p.mm_per_px; }
+  double distance_px(const PointOnBoard& p) const {
+    return std::abs(normal.dot(p.p_board - point)) / p.mm_per_px;
+  }
 };
 
-Line line_through(const Vector2d& a, const Vector2d& b) {
+LaserLine line_through(const Vector2d& a, const Vector2d& b) {
   const Vector2d d = (b - a).normalized();
   return {a, {-d.y(), d.x()}};
 }
 
-Line fitted(const std::vector<Placed>& points, const std::vector<std::size_t>& chosen) {
+LaserLine fitted(const std::vector<PointOnBoard>& points, const std::vector<std::size_t>& chosen) {
   Vector2d mean = Vector2d::Zero();
   for (const auto i : chosen) mean += points[i].p_board / static_cast<double>(chosen.size());
   Eigen::Matrix2d scatter = Eigen::Matrix2d::Zero();
@@ -103,7 +106,8 @@ Line fitted(const std::vector<Placed>& points, const std::vector<std::size_t>& c
   return {mean, symmetric_eigen(scatter).vectors.col(0)};
 }
 
-std::vector<std::size_t> within(const std::vector<Placed>& points, const Line& line, double tolerance_px) {
+std::vector<std::size_t> within(const std::vector<PointOnBoard>& points, const LaserLine& line,
+                                double tolerance_px) {
   std::vector<std::size_t> chosen;
   for (std::size_t i = 0; i < points.size(); ++i)
     if (line.distance_px(points[i]) < tolerance_px) chosen.push_back(i);
@@ -111,8 +115,8 @@ std::vector<std::size_t> within(const std::vector<Placed>& points, const Line& l
 }
 
 /// Three times the robust deviation of the chosen points from the line.
-double tolerance_px(const std::vector<Placed>& points, const std::vector<std::size_t>& chosen,
-                    const Line& line) {
+double tolerance_px(const std::vector<PointOnBoard>& points, const std::vector<std::size_t>& chosen,
+                    const LaserLine& line) {
   std::vector<double> distances;
   distances.reserve(chosen.size());
   for (const auto i : chosen) distances.push_back(line.distance_px(points[i]));
@@ -120,7 +124,7 @@ double tolerance_px(const std::vector<Placed>& points, const std::vector<std::si
 }
 
 /// Clear points decide, so that a row of the squares' edges does not win against the stripe.
-double votes(const std::vector<Placed>& points, const std::vector<std::size_t>& chosen) {
+double votes(const std::vector<PointOnBoard>& points, const std::vector<std::size_t>& chosen) {
   constexpr double kNearEdge = 0.01;
   double sum = 0;
   for (const auto i : chosen) sum += points[i].clear ? 1 : kNearEdge;
@@ -128,7 +132,7 @@ double votes(const std::vector<Placed>& points, const std::vector<std::size_t>& 
 }
 
 /// The line with the most votes (RANSAC with fixed random numbers), refitted to those that belong to it.
-std::vector<std::size_t> best_line(const std::vector<Placed>& points) {
+std::vector<std::size_t> best_line(const std::vector<PointOnBoard>& points) {
   std::vector<std::size_t> best;
   if (points.size() < kMinPoints) return best;
   Random random(points.size());
@@ -144,7 +148,7 @@ std::vector<std::size_t> best_line(const std::vector<Placed>& points) {
     best = std::move(chosen);
   }
   for (int i = 0; i < 3 && best.size() >= kMinPoints; ++i) {
-    const Line line = fitted(points, best);
+    const LaserLine line = fitted(points, best);
     best = within(points, line, tolerance_px(points, best, line));
   }
   if (best.size() < kMinPoints) best.clear();
@@ -152,10 +156,11 @@ std::vector<std::size_t> best_line(const std::vector<Placed>& points) {
 }
 
 /// Takes the points near the line out of `points`, and returns those on it.
-std::vector<Placed> take_line(std::vector<Placed>& points, const std::vector<std::size_t>& chosen) {
-  std::vector<Placed> line, rest;
+std::vector<PointOnBoard> take_line(std::vector<PointOnBoard>& points,
+                                    const std::vector<std::size_t>& chosen) {
+  std::vector<PointOnBoard> line, rest;
   for (const auto i : chosen) line.push_back(points[i]);
-  const Line fit = fitted(points, chosen);
+  const LaserLine fit = fitted(points, chosen);
   for (const auto& p : points)
     if (fit.distance_px(p) > std::max(kStartTolerancePx, p.point.width)) rest.push_back(p);
   points = std::move(rest);
@@ -183,7 +188,7 @@ void order_lines(std::vector<std::vector<StripePoint>>& lines) {
 }
 
 /// What is there instead of a line on the board.
-std::string why_no_line(const std::vector<Stripe>& stripes, const std::vector<Placed>& points,
+std::string why_no_line(const std::vector<Stripe>& stripes, const std::vector<PointOnBoard>& points,
                         const BoardMap& map, const Target& target) {
   if (!points.empty())
     return fmt::format("no straight stripe on the board ({} on it)", counted(points.size(), "bright point"));

@@ -15,7 +15,7 @@
 namespace lightstripe {
 namespace {
 
-constexpr std::size_t kMinViews = 8;
+constexpr std::size_t kMinViewsOfLens = 8;
 constexpr std::array<LensModel, 7> kCandidates{
     LensModel::kBrown4,   LensModel::kTilted,         LensModel::kBrown5,   LensModel::kTilted5,
     LensModel::kRational, LensModel::kTiltedRational, LensModel::kThinPrism};
@@ -227,7 +227,7 @@ LensChoice choose_lens(const InitialValues& values, int sensor, const Calibratio
   const auto views =
       std::count_if(values.session.views.begin(), values.session.views.end(),
                     [&](const auto& v) { return v.sensor == sensor && v.pose >= 0 && !v.height_mm; });
-  if (static_cast<std::size_t>(views) < kMinViews) return choice;
+  if (static_cast<std::size_t>(views) < kMinViewsOfLens) return choice;
   std::vector<Tried> tried;
   for (const auto& [lens, errors] : held_out_errors(values, sensor, options.board_warp)) {
     if (!std::isfinite(mean(errors))) continue;

@@ -21,20 +21,20 @@ constexpr double kFits = 0.0015;     // of the range: a line in the laser plane
 constexpr double kMinOffset = 0.02;  // of the range: nearer to the camera lies the plane of its own rays
 
 /// A line of a picture, taken as lying at the picture's height.
-struct Candidate {
+struct BedLine {
   std::size_t view = 0, line = 0;
   StripeInSpace in_space;
 };
 
-std::vector<Candidate> candidates(const InitialValues& values, int sensor) {
-  std::vector<Candidate> result;
+std::vector<BedLine> candidates(const InitialValues& values, int sensor) {
+  std::vector<BedLine> result;
   for (std::size_t v = 0; v < values.session.views.size(); ++v) {
     const auto& view = values.session.views[v];
     if (view.sensor != sensor || !view.height_mm) continue;
     const auto& camera = values.state.sensors[static_cast<std::size_t>(sensor)].camera;
     const Plane top = board_plane(values.cam_from_board[v]);
     for (std::size_t k = 0; k < view.lines.size(); ++k) {
-      Candidate candidate{v, k, {v, 0, {}}};
+      BedLine candidate{v, k, {v, 0, {}}};
       for (const auto& point : independent_points(view.lines[k])) {
         const auto ray = unproject(camera, {point.x, point.y});
         const auto p = ray ? intersect(top, Vector3d::Zero(), *ray) : std::nullopt;
@@ -48,14 +48,14 @@ std::vector<Candidate> candidates(const InitialValues& values, int sensor) {
 
 /// For each picture the candidate nearest to the plane, where it fits.
 struct Choice {
-  std::vector<const Candidate*> chosen;
+  std::vector<const BedLine*> chosen;
   double sum_mm = 0;
 };
 
-Choice nearest_to(const Plane& plane, const std::vector<Candidate>& all) {
+Choice nearest_to(const Plane& plane, const std::vector<BedLine>& all) {
   Choice choice;
   for (std::size_t i = 0; i < all.size();) {
-    const Candidate* best = nullptr;
+    const BedLine* best = nullptr;
     double least = kFits * all[i].in_space.points.front().norm();
     const std::size_t view = all[i].view;
     for (; i < all.size() && all[i].view == view; ++i) {
@@ -71,16 +71,15 @@ Choice nearest_to(const Plane& plane, const std::vector<Candidate>& all) {
   return choice;
 }
 
-bool is_laser_plane(const PlaneFit& fit, const Candidate& like) {
+bool is_laser_plane(const PlaneFit& fit, const BedLine& like) {
   return fit.determined() && std::abs(fit.plane.offset) > kMinOffset * like.in_space.points.front().norm();
 }
 
 /// Pictures with candidates, and warnings about those of which none was chosen.
-void judge_choice(InitialValues& values, int sensor, const std::vector<Candidate>& all,
-                  const Choice& choice) {
+void judge_choice(InitialValues& values, int sensor, const std::vector<BedLine>& all, const Choice& choice) {
   std::set<std::size_t> shown, chosen;
-  for (const Candidate& candidate : all) shown.insert(candidate.view);
-  for (const Candidate* candidate : choice.chosen) chosen.insert(candidate->view);
+  for (const BedLine& candidate : all) shown.insert(candidate.view);
+  for (const BedLine* candidate : choice.chosen) chosen.insert(candidate->view);
   if (5 * chosen.size() < 4 * shown.size())
     throw NotUsable(
         fmt::format("sensor {}: only {} of {} show a line at their height in one plane; check that "
@@ -113,7 +112,7 @@ void choose_height_lines(InitialValues& values, int sensor) {
     }
   }
   judge_choice(values, sensor, all, best);
-  for (const Candidate* line : best.chosen) {
+  for (const BedLine* line : best.chosen) {
     auto& view = values.session.views[line->view];
     view.stripes[0] = independent_points(view.lines[line->line]);
   }

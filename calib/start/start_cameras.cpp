@@ -5,7 +5,6 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <optional>
 #include <utility>
 
@@ -17,11 +16,11 @@
 #include "calib/start/refine_views.h"
 #include "core/counted.h"
 #include "core/linear_algebra.h"
+#include "core/transform.h"
 
 namespace lightstripe {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kMinTiltDeg =
     3;  // of the boards against their mean direction; below it f and the range are one
 constexpr double kMaxViewErrorPx = 3;  // a view beyond it has corners in a wrong order, or another board

@@ -5,19 +5,18 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "calib/adjust/session_views.h"
 #include "calib/start/initial_values.h"
 #include "core/counted.h"
 #include "core/linear_algebra.h"
+#include "core/transform.h"
 
 namespace lightstripe {
 namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kMaxScaleError = 0.02;  // of travel against what the camera sees, before a warning
 constexpr double kWrongScale = 0.05;     // no scale or encoder is as bad: squares or travel are wrong
 

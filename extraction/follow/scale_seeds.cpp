@@ -15,7 +15,7 @@ constexpr int kSeedReach = 4;
 /// Grey levels, in the image itself: what stands out by less is no stripe; in means of more pixels less is.
 constexpr double kLeastContrast = 4;
 /// Standard deviations of the level's noise.
-constexpr double kClearOfNoise = 5;
+constexpr double kSeedOverNoise = 5;
 
 }  // namespace
 
@@ -24,7 +24,7 @@ void collect_scale_seeds(const ImagePyramid<T>& pyramid, int level, const ScaleS
                          SeedWorkspace& workspace, std::vector<ScaleSeed>& found) {
   const auto k = static_cast<std::size_t>(level);
   SeedRule of_level;
-  of_level.contrast = std::max(kLeastContrast / (1 << level), kClearOfNoise * pyramid.noise[k]);
+  of_level.contrast = std::max(kLeastContrast / (1 << level), kSeedOverNoise * pyramid.noise[k]);
   of_level.foreground = rule.brightest + 1;
   of_level.brightest = rule.brightest;
   of_level.reach = kSeedReach;

@@ -15,7 +15,7 @@ namespace {
 
 /// Full widths from the centre to where the colour of the surroundings is read: 3 standard deviations of a
 /// Gaussian stripe.
-constexpr double kAside = 0.9;
+constexpr double kAsideOfLight = 0.9;
 /// Pixels, at least so far aside: the colour is known in means of 3 x 3 pixels.
 constexpr double kLeastAside = 3;
 /// Of the points that are looked at: with fewer unclipped ones the colour of the line is not known.
@@ -55,7 +55,7 @@ double median_of_known(const std::vector<float>& values, std::vector<float>& scr
 template <class T>
 LineColour look_at_line(ImageView<T> image, const LineSet& lines, const LineRange& range, double width,
                         std::size_t step, ColourWorkspace& w) {
-  const double aside = std::max(kLeastAside, kAside * width);
+  const double aside = std::max(kLeastAside, kAsideOfLight * width);
   w.rises.clear();
   w.shares.clear();
   std::size_t looked_at = 0, known = 0;

@@ -23,7 +23,7 @@ constexpr double kUsualCut = 1;
 /// Of the shift that the cut explains: its error.
 constexpr double kShiftError = 0.25;
 /// Line that is looked at, in sigmas of the kernels beyond the disturbed points.
-constexpr double kNarrow = 4, kWide = 8;
+constexpr double kNarrowPart = 4, kWidePart = 8;
 /// z of the first point from which on no end is seen, but noise of the strengths.
 constexpr double kNoEnd = 2.2;
 /// Strengths agree with an end to some 2 % where neither grain nor shading spoils them.
@@ -32,7 +32,7 @@ constexpr double kStrengthError = 0.02;
 constexpr double kFarthestAside = 1.25;
 /// Mean square of the misfits over the points' own: a parabola over the wide stretch that is worse is not
 /// used.
-constexpr double kMostMisfit = 1.5;
+constexpr double kMostEndMisfit = 1.5;
 
 /// One line seen from one of its ends.
 struct EndView {
@@ -151,7 +151,7 @@ void set_influence(const LightEnd& light, double step, double sigma_px, std::spa
 /// Moves the disturbed points onto the line that all points together tell; false where no cut explains them.
 bool move_points(const EndView& end, const Hypothesis& h, const EndFit& wide,
                  std::span<const EndPoint> points, Direction along) {
-  const EndFit& line = wide.misfit < kMostMisfit ? wide : h.narrow;
+  const EndFit& line = wide.misfit < kMostEndMisfit ? wide : h.narrow;
   const EndPoint& last = points.front();
   const double limit = kFarthestAside * h.light.sigma;
   if (std::abs(line.across(last.u) - last.across) > limit ||
@@ -201,8 +201,8 @@ void mend_end(const EndView& end, double sigma, double shared_px, EndsOnPrint on
   if (likeliest.light.inside >= kNoEnd) return;
   const std::size_t reach = std::ranges::max(all, {}, &Hypothesis::disturbed).disturbed;
   end.continue_systematic(reach + scale);  // where fading was looked at over undisturbed points
-  const auto narrow_count = reach + static_cast<std::size_t>(kNarrow * sigma / step),
-             count = reach + static_cast<std::size_t>(kWide * sigma / step);
+  const auto narrow_count = reach + static_cast<std::size_t>(kNarrowPart * sigma / step),
+             count = reach + static_cast<std::size_t>(kWidePart * sigma / step);
   if (on_print == EndsOnPrint::kYes || end.size() <= count || !is_joined(end, count))
     return widen_errors(end, likeliest, inner.sigma_px, step);
 

@@ -27,7 +27,7 @@ constexpr double kTolerance = 1, kToleranceOfWhite = 25, kToleranceOfAnother = 3
 constexpr float kGap = std::numeric_limits<float>::quiet_NaN();
 
 /// The row or column that crosses a line at one point.
-struct Crossing {
+struct RowCrossing {
   bool is_row = false;
   int index = 0;      ///< of the row or column
   double centre = 0;  ///< px along it
@@ -53,7 +53,7 @@ double error_in_speckle(double cosine, double sharper) {
   return std::sqrt(cosine * cosine * cosine * sharper);
 }
 
-Crossing crossing_at(const StripePoint& p) {
+RowCrossing row_crossing_at(const StripePoint& p) {
   const bool is_row = std::abs(p.normal_x) >= std::abs(p.normal_y);
   const double across = is_row ? p.normal_x : p.normal_y, along = is_row ? p.normal_y : p.normal_x;
   const double place = is_row ? p.y : p.x, centre = is_row ? p.x : p.y;
@@ -65,7 +65,8 @@ Crossing crossing_at(const StripePoint& p) {
 /// The centre of one row less that of the line, px along the row, for kernels along the row only.
 /// `strength`: of the row's own scale, across the line.
 template <class T>
-double row_offset(ImageView<T> image, const DerivativeKernels& kernels, const Crossing& c, double strength) {
+double row_offset(ImageView<T> image, const DerivativeKernels& kernels, const RowCrossing& c,
+                  double strength) {
   const int count = c.is_row ? image.width : image.height;
   const std::ptrdiff_t step = c.is_row ? 1 : image.stride;
   const T* line = c.is_row ? image.row(c.index) : image.data + c.index;
@@ -101,11 +102,11 @@ template <class T>
 double collect_offsets(ImageView<T> image, const DerivativeKernels& kernels, const LineSet& lines,
                        const LineRange& r, const ObliqueView& view, std::vector<float>& offsets) {
   offsets.clear();
-  Crossing last{};
+  RowCrossing last{};
   double cosines = 0, used = 0;
   for (std::size_t i = r.begin; i < r.end; ++i) {
     const StripePoint& p = lines.points[i];
-    const Crossing c = crossing_at(p);
+    const RowCrossing c = row_crossing_at(p);
     const bool outside = c.index < 0 || c.index >= (c.is_row ? image.height : image.width);
     const bool usable = (p.flags & kStripeBridged) == 0 && p.strength > 0 && !outside;
     if (!usable || bends_at(lines, r, i, kernels.sigma)) {

@@ -12,9 +12,9 @@ namespace lightstripe {
 namespace {
 
 /// Reach over the length along which neighbours share their error; below it they repeat the point's own.
-constexpr double kNarrowest = 1.7;
+constexpr double kNarrowestReach = 1.7;
 constexpr double kGrowth = 1.5;
-constexpr int kLevels = 8;  // the widest reach is 17 times the narrowest
+constexpr int kReaches = 8;  // the widest reach is 17 times the narrowest
 /// Longest bridge that a window reaches over, in those lengths.
 constexpr double kLongestBridge = 6;
 /// Mean square of some 5 independent differences over its expectation: exceeded by noise in 1 %.
@@ -50,8 +50,8 @@ void smooth_segment(std::span<StripePoint> points, double shared_px, SmoothingWo
   w.wider.resize(points.size());
   w.misfit.resize(points.size() + 1);
   w.telling.assign(points.size() + 1, 0);
-  double wanted = kNarrowest * shared;
-  for (int level = 0; level < kLevels; ++level, wanted *= kGrowth) {
+  double wanted = kNarrowestReach * shared;
+  for (int level = 0; level < kReaches; ++level, wanted *= kGrowth) {
     const std::size_t reach = std::min(static_cast<std::size_t>(wanted), (points.size() - 1) / 2);
     if (static_cast<double>(reach) < 0.75 * wanted) break;
     LocalFitter fitter(w.places);

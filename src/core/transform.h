@@ -4,8 +4,13 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <cmath>
+#include <numbers>
 
 namespace lightstripe {
+
+/// Radians of one degree.
+inline constexpr double kDegree = std::numbers::pi / 180;
 
 struct Rigid3 {
   Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();

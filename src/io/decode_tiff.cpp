@@ -14,14 +14,13 @@
 #include <vector>
 
 #include "core/error.h"
+#include "io/image_header.h"
 
 namespace lightstripe {
 namespace {
 
-constexpr std::int64_t kMaxPixels = std::int64_t{1} << 28;
 constexpr tmsize_t kMaxPartBytes = tmsize_t{1} << 30;
 constexpr int kMaxSamples = 16;
-constexpr const char* kExportAgain = "record or export it again";
 constexpr const char* kConvert = "convert it to grey or RGB with 8 or 16 bits";
 
 /// The file in memory, as libtiff's client procedures see it. Nothing is written, nothing is mapped.

@@ -12,6 +12,12 @@
 
 namespace lightstripe {
 
+/// A picture of more pixels is refused before anything is allocated.
+inline constexpr std::int64_t kMaxPixels = std::int64_t{1} << 28;
+
+/// What to do with a damaged picture.
+inline constexpr const char* kExportAgain = "record or export it again";
+
 enum class ImageFormat { kUnknown, kPng, kJpeg, kTiff, kBmp, kPnm };
 
 struct ImageHeader {

@@ -10,6 +10,7 @@
 #include "core/error.h"
 #include "io/grey_channel.h"
 #include "io/live_cameras.h"
+#include "io/opencv_codecs.h"
 
 namespace lightstripe {
 namespace {
@@ -20,14 +21,14 @@ class Capture : public LiveSource {
     const bool device = text.scheme == "v4l2";
     if (device) refuse_other_options(text, {"width", "height", "frame_rate"});
     try {
-      if (!capture_.open(text.place, device ? cv::CAP_V4L2 : cv::CAP_FFMPEG)) refuse();
+      if (!capture_->open(text.place, device ? cv::CAP_V4L2 : cv::CAP_FFMPEG)) refuse();
     } catch (const cv::Exception&) {
       refuse();
     }
     set(cv::CAP_PROP_FRAME_WIDTH, "width");
     set(cv::CAP_PROP_FRAME_HEIGHT, "height");
     set(cv::CAP_PROP_FPS, "frame_rate");
-    const double rate = capture_.get(cv::CAP_PROP_FPS);
+    const double rate = capture_->get(cv::CAP_PROP_FPS);
     if (rate > 0 && rate < 100000) rate_ = rate;
     counts_by_time_ = device && rate_.has_value();
   }
@@ -52,8 +53,8 @@ class Capture : public LiveSource {
   void set(int property, const std::string& key) {
     const auto wanted = number_option(text_, key);
     if (!wanted) return;
-    const bool taken = capture_.set(property, *wanted);
-    const double got = capture_.get(property);
+    const bool taken = capture_->set(property, *wanted);
+    const double got = capture_->get(property);
     if (!taken || std::abs(got - *wanted) > 0.01 * std::abs(*wanted))
       throw Error("option " + key + " of the source",
                   fmt::format("the camera gives {} instead of {}", got, *wanted),
@@ -62,8 +63,8 @@ class Capture : public LiveSource {
 
   bool grab(const std::stop_token& stop) {
     cv::Mat picture;
-    if (stop.stop_requested() || !capture_.read(picture) || picture.empty()) return false;
-    const double ms = capture_.get(cv::CAP_PROP_POS_MSEC);
+    if (stop.stop_requested() || !capture_->read(picture) || picture.empty()) return false;
+    const double ms = capture_->get(cv::CAP_PROP_POS_MSEC);
     if (counts_by_time_ && last_ms_) add_lost(*last_ms_, ms);
     last_ms_ = ms;
     LiveFrame frame;
@@ -95,7 +96,7 @@ class Capture : public LiveSource {
 
   SourceText text_;
   Channel channel_;
-  cv::VideoCapture capture_;
+  std::unique_ptr<cv::VideoCapture> capture_ = opencv_codecs().new_capture();
   std::optional<double> rate_, last_ms_;
   bool counts_by_time_ = false;
   std::int64_t next_ = 0;

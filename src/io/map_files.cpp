@@ -2,23 +2,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/map_files.h"
 
-#include <opencv2/imgcodecs.hpp>
-
 #include "core/error.h"
 #include "io/atomic_file.h"
+#include "io/opencv_codecs.h"
 
 namespace lightstripe {
 namespace {
 
 void encode(const std::filesystem::path& path, const char* extension, const cv::Mat& map) {
   std::vector<std::uint8_t> bytes;
-  bool done = false;
-  try {
-    done = cv::imencode(extension, map, bytes);
-  } catch (const cv::Exception&) {
-    done = false;
-  }
-  if (!done) throw Error(path.string(), "cannot be encoded", "give a larger raster, or a shorter scan");
+  if (!opencv_codecs().encode(extension, map, std::nullopt, bytes))
+    throw Error(path.string(), "cannot be encoded", "give a larger raster, or a shorter scan");
   write_file(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
@@ -44,13 +38,8 @@ void write_grey16_png(const std::filesystem::path& path, const std::vector<std::
 
 std::vector<float> read_float_tiff(const std::filesystem::path& path, int* width, int* height) {
   const std::string bytes = read_file(path, std::size_t{1} << 31);
-  cv::Mat map;
-  try {
-    map = cv::imdecode(cv::Mat(1, static_cast<int>(bytes.size()), CV_8UC1, const_cast<char*>(bytes.data())),
-                       cv::IMREAD_UNCHANGED);
-  } catch (const cv::Exception&) {
-    map.release();
-  }
+  const cv::Mat map = opencv_codecs().decode(
+      cv::Mat(1, static_cast<int>(bytes.size()), CV_8UC1, const_cast<char*>(bytes.data())));
   if (map.empty() || map.type() != CV_32FC1)
     throw Error(path.string(), "is no float TIFF of one channel", "give a map that lightstripe wrote");
   *width = map.cols, *height = map.rows;

@@ -24,10 +24,11 @@ bool can_encode(const std::string& extension) {
   }
 }
 
-bool encode(const std::string& extension, const cv::Mat& picture, int quality,
+bool encode(const std::string& extension, const cv::Mat& picture, std::optional<int> setting,
             std::vector<std::uint8_t>& bytes) {
   std::vector<int> parameters;
-  if (extension == ".jpg") parameters = {cv::IMWRITE_JPEG_QUALITY, quality};
+  if (setting && extension == ".jpg") parameters = {cv::IMWRITE_JPEG_QUALITY, *setting};
+  if (setting && extension == ".png") parameters = {cv::IMWRITE_PNG_COMPRESSION, *setting};
   try {
     return cv::imencode(extension, picture, bytes, parameters);
   } catch (const cv::Exception&) {

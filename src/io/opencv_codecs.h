@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <memory>
 #include <opencv2/core.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,8 +24,9 @@ struct OpencvCodecs {
   cv::Mat (*decode)(const cv::Mat& bytes);
   /// Whether OpenCV writes files of this extension (".png").
   bool (*can_encode)(const std::string& extension);
-  /// False where it fails. `quality` of JPEG: 0 to 100.
-  bool (*encode)(const std::string& extension, const cv::Mat& picture, int quality,
+  /// False where it fails. `setting`: of JPEG the quality, 0 to 100; of PNG the compression, 0 to 9; none:
+  /// OpenCV's own.
+  bool (*encode)(const std::string& extension, const cv::Mat& picture, std::optional<int> setting,
                  std::vector<std::uint8_t>& bytes);
   /// Not opened yet. Its functions are virtual, so that who calls them needs no library.
   std::unique_ptr<cv::VideoCapture> (*new_capture)();

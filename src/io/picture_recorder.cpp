@@ -8,12 +8,12 @@
 
 #include <bit>
 #include <cerrno>
-#include <opencv2/imgcodecs.hpp>
 #include <span>
 #include <vector>
 
 #include "core/error.h"
 #include "io/atomic_file.h"
+#include "io/opencv_codecs.h"
 
 namespace lightstripe {
 namespace {
@@ -72,7 +72,9 @@ void write_png(const fs::path& path, const Image<T>& image) {
   const cv::Mat picture(image.height, image.width, sizeof(T) == 1 ? CV_8UC1 : CV_16UC1,
                         const_cast<T*>(image.pixels.data()));
   std::vector<std::uint8_t> bytes;
-  cv::imencode(".png", picture, bytes, {cv::IMWRITE_PNG_COMPRESSION, 1});
+  constexpr int kQuick = 1;
+  if (!opencv_codecs().encode(".png", picture, kQuick, bytes))
+    throw Error(path.string(), "cannot be encoded as PNG", "record as PGM (--format pgm)");
   write_parts(path, {bytes});
 }
 

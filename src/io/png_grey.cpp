@@ -23,7 +23,7 @@ struct PngParts {
 };
 
 /// Nothing where the picture is not plain grey.
-std::optional<PngParts> parts_of(std::string_view bytes) {
+std::optional<PngParts> grey_parts_of(std::string_view bytes) {
   ByteReader in{bytes, true};
   const std::uint64_t depth = in.u8(24), color_type = in.u8(25), interlaced = in.u8(28);
   if ((depth != 8 && depth != 16) || color_type != 0 || interlaced != 0) return std::nullopt;
@@ -120,7 +120,7 @@ std::optional<GreyImage> picture_of(const PngParts& parts) {
 }  // namespace
 
 std::optional<GreyImage> decode_grey_png(std::string_view bytes) {
-  const auto parts = parts_of(bytes);
+  const auto parts = grey_parts_of(bytes);
   if (!parts) return std::nullopt;
   return parts->bytes_per_pixel == 1 ? picture_of<Byte>(*parts) : picture_of<std::uint16_t>(*parts);
 }

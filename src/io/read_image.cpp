@@ -19,9 +19,6 @@
 namespace lightstripe {
 namespace {
 
-constexpr std::int64_t kMaxPixels = std::int64_t{1} << 28;
-constexpr const char* kExportAgain = "record or export it again";
-
 void check_header(const ImageHeader& header, const std::string& name) {
   if (header.format == ImageFormat::kUnknown)
     throw Error(name, "is not a PNG, JPEG, TIFF, BMP or PNM picture", "check the path or convert it");

@@ -14,7 +14,7 @@
 namespace lightstripe {
 namespace {
 
-constexpr double kUnitTolerance = 1e-4;  // what a person or a tool that writes six digits leaves
+constexpr double kAxisTolerance = 1e-4;  // what a person or a tool that writes six digits leaves
 constexpr int kMaxSide = 1 << 15;        // px
 
 /// A place in the file, for complaints.
@@ -37,7 +37,7 @@ struct Place {
 template <class V>
 V made_unit(const V& vector, const Place& place) {
   const double length = vector.norm();
-  place.require(std::abs(length - 1) <= kUnitTolerance, "has not unit length", "scale it to length 1");
+  place.require(std::abs(length - 1) <= kAxisTolerance, "has not unit length", "scale it to length 1");
   return std::abs(length - 1) < 1e-15 ? vector : V(vector / length);
 }
 

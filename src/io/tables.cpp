@@ -37,7 +37,7 @@ std::string csv_cell(std::string_view text) {
 
 namespace {
 
-constexpr double kUnitTolerance = 1e-3;
+constexpr double kQuaternionTolerance = 1e-3;
 
 /// Each cell but the last of a row: number and comma.
 void append_cell(std::string& out, double value, int decimals) {
@@ -110,7 +110,7 @@ namespace {
 /// Columns 1 to 7 of a row: qw qx qy qz x y z.
 Rigid3 pose_in_row(CsvReader& table) {
   const Eigen::Quaterniond rotation(table.number(1), table.number(2), table.number(3), table.number(4));
-  if (!(std::abs(rotation.norm() - 1) <= kUnitTolerance))
+  if (!(std::abs(rotation.norm() - 1) <= kQuaternionTolerance))
     table.fail("the quaternion has not unit length", "give qw,qx,qy,qz of a rotation");
   return {rotation.normalized(), {table.number(5), table.number(6), table.number(7)}};
 }

@@ -4,26 +4,18 @@
 #include "io/tiff_header.h"
 
 #include "io/byte_reader.h"
+#include "io/tiff_tags.h"
 
 namespace lightstripe {
 namespace {
 
-enum Tag : std::uint64_t {
-  kWidth = 256,
-  kHeight = 257,
-  kStripOffsets = 273,
-  kStripByteCounts = 279,
-  kTileOffsets = 324,
-  kTileByteCounts = 325,
-};
-
 /// One entry of a directory: `count` numbers of `size` bytes at `at`.
-struct Entry {
+struct PlacedNumbers {
   std::uint64_t count = 0, at = 0;
   int size = 0;
 };
 
-int size_of_type(std::uint64_t type) {
+int bytes_of_place(std::uint64_t type) {
   switch (type) {
     case 1:
       return 1;  // BYTE
@@ -38,9 +30,9 @@ int size_of_type(std::uint64_t type) {
   }
 }
 
-class Directory {
+class HeaderDirectory {
  public:
-  explicit Directory(std::string_view bytes) : in_{bytes, bytes[0] == 'M'} {
+  explicit HeaderDirectory(std::string_view bytes) : in_{bytes, bytes[0] == 'M'} {
     const bool big = in_.u16(2) == 43;
     offset_size_ = big ? 8 : 4;
     const std::uint64_t start = in_.number(big ? 8 : 4, offset_size_);
@@ -50,12 +42,12 @@ class Directory {
   }
 
   /// The entry of this tag; a count of 0 where there is none.
-  Entry find(Tag tag) {
+  PlacedNumbers find(TiffTag tag) {
     for (std::uint64_t i = 0; i < num_entries_ && !in_.beyond_end; ++i) {
       const std::uint64_t at = first_ + i * entry_size_;
       if (in_.u16(at) != tag) continue;
-      Entry entry;
-      entry.size = size_of_type(in_.u16(at + 2));
+      PlacedNumbers entry;
+      entry.size = bytes_of_place(in_.u16(at + 2));
       entry.count = in_.number(at + 4, offset_size_);
       const std::uint64_t value_at = at + 4 + static_cast<std::uint64_t>(offset_size_);
       const bool inside =
@@ -67,7 +59,7 @@ class Directory {
     return {};
   }
 
-  std::uint64_t value(const Entry& entry, std::uint64_t index) {
+  std::uint64_t value(const PlacedNumbers& entry, std::uint64_t index) {
     return in_.number(entry.at + index * static_cast<std::uint64_t>(entry.size), entry.size);
   }
   bool beyond_end() const { return in_.beyond_end; }
@@ -78,8 +70,9 @@ class Directory {
   std::uint64_t num_entries_ = 0, first_ = 0, entry_size_ = 12;
 };
 
-bool parts_inside(Directory& directory, Tag offsets_tag, Tag counts_tag, std::uint64_t file_size) {
-  const Entry offsets = directory.find(offsets_tag), counts = directory.find(counts_tag);
+bool parts_inside(HeaderDirectory& directory, TiffTag offsets_tag, TiffTag counts_tag,
+                  std::uint64_t file_size) {
+  const PlacedNumbers offsets = directory.find(offsets_tag), counts = directory.find(counts_tag);
   if (offsets.count != counts.count)
     return counts.count == 0;  // old writers leave the counts out: libtiff judges
   for (std::uint64_t i = 0; i < offsets.count && !directory.beyond_end(); ++i) {
@@ -92,13 +85,13 @@ bool parts_inside(Directory& directory, Tag offsets_tag, Tag counts_tag, std::ui
 }  // namespace
 
 ImageHeader inspect_tiff(std::string_view bytes) {
-  Directory directory(bytes);
+  HeaderDirectory directory(bytes);
   ImageHeader header{ImageFormat::kTiff, 0, 0, 0, "", 0};
-  const Entry width = directory.find(kWidth), height = directory.find(kHeight);
+  const PlacedNumbers width = directory.find(kTiffWidth), height = directory.find(kTiffHeight);
   if (width.count > 0) header.width = static_cast<std::int64_t>(directory.value(width, 0));
   if (height.count > 0) header.height = static_cast<std::int64_t>(directory.value(height, 0));
-  const bool whole = parts_inside(directory, kStripOffsets, kStripByteCounts, bytes.size()) &&
-                     parts_inside(directory, kTileOffsets, kTileByteCounts, bytes.size());
+  const bool whole = parts_inside(directory, kTiffStripOffsets, kTiffStripByteCounts, bytes.size()) &&
+                     parts_inside(directory, kTiffTileOffsets, kTiffTileByteCounts, bytes.size());
   if (!whole || directory.beyond_end()) header.damage = "ends before its picture does";
   return header;
 }

@@ -7,19 +7,13 @@
 #include <optional>
 
 #include "io/byte_reader.h"
+#include "io/tiff_tags.h"
 
 namespace lightstripe {
 namespace {
 
 constexpr std::uint64_t kMaxPageBytes = std::uint64_t{1} << 30;
 constexpr std::uint64_t kMaxEntries = 1024;
-enum Tag : std::uint64_t {
-  kStripOffsets = 273,
-  kStripByteCounts = 279,
-  kTileOffsets = 324,
-  kTileByteCounts = 325
-};
-
 /// What decoding needs: size, bits, compression, colours, strips, tiles, orientation. Pointers to other
 /// directories (EXIF, thumbnails) stay behind.
 bool decoding_needs(std::uint64_t tag) {
@@ -29,7 +23,7 @@ bool decoding_needs(std::uint64_t tag) {
   return std::binary_search(kTags.begin(), kTags.end(), tag);
 }
 
-std::uint64_t size_of_type(std::uint64_t type) {
+std::uint64_t bytes_of_type(std::uint64_t type) {
   constexpr std::array<std::uint64_t, 19> kSizes = {0, 1, 1, 2, 4, 8, 1, 1, 2, 4, 8, 4, 8, 4, 0, 0, 8, 8, 8};
   return type < kSizes.size() ? kSizes.at(type) : 0;
 }
@@ -63,7 +57,7 @@ std::optional<Entry> read_entry(const ReadAt& read, const Dialect& dialect, std:
               dialect.number(bytes, 2, 2),
               dialect.number(bytes, 4, dialect.offset_size()),
               {}};
-  const std::uint64_t size = size_of_type(entry.type);
+  const std::uint64_t size = bytes_of_type(entry.type);
   if (size == 0 || entry.count > kMaxPageBytes / size) return std::nullopt;
   const auto inside = static_cast<std::uint64_t>(dialect.offset_size());
   const std::uint64_t value_at = 4 + inside, length = size * entry.count;
@@ -94,7 +88,7 @@ std::vector<Entry> read_entries(const ReadAt& read, const Dialect& dialect, std:
   return entries;
 }
 
-Entry* find(std::vector<Entry>& entries, Tag tag) {
+Entry* find(std::vector<Entry>& entries, TiffTag tag) {
   const auto found =
       std::find_if(entries.begin(), entries.end(), [tag](const Entry& e) { return e.tag == tag; });
   return found == entries.end() ? nullptr : &*found;
@@ -102,13 +96,13 @@ Entry* find(std::vector<Entry>& entries, Tag tag) {
 
 /// Takes the strips or tiles over to the end of `pixels`, which will stand right behind the header; false
 /// where they are not all in the file.
-bool take_pixels(const ReadAt& read, const Dialect& dialect, std::vector<Entry>& entries, Tag offsets_tag,
-                 Tag counts_tag, std::string& pixels) {
+bool take_pixels(const ReadAt& read, const Dialect& dialect, std::vector<Entry>& entries, TiffTag offsets_tag,
+                 TiffTag counts_tag, std::string& pixels) {
   Entry *offsets = find(entries, offsets_tag), *counts = find(entries, counts_tag);
   if (offsets == nullptr && counts == nullptr) return true;
   if (offsets == nullptr || counts == nullptr || offsets->count != counts->count) return false;
-  const auto offset_size = static_cast<int>(size_of_type(offsets->type)),
-             count_size = static_cast<int>(size_of_type(counts->type));
+  const auto offset_size = static_cast<int>(bytes_of_type(offsets->type)),
+             count_size = static_cast<int>(bytes_of_type(counts->type));
   std::string moved;
   for (std::uint64_t i = 0; i < offsets->count; ++i) {
     const std::uint64_t length =
@@ -184,8 +178,8 @@ std::string cut_tiff_page(const ReadAt& read, const TiffLayout& layout, std::uin
   std::vector<Entry> entries = read_entries(read, dialect, directory);
   std::string pixels;
   const bool whole = !entries.empty() &&
-                     take_pixels(read, dialect, entries, kStripOffsets, kStripByteCounts, pixels) &&
-                     take_pixels(read, dialect, entries, kTileOffsets, kTileByteCounts, pixels);
+                     take_pixels(read, dialect, entries, kTiffStripOffsets, kTiffStripByteCounts, pixels) &&
+                     take_pixels(read, dialect, entries, kTiffTileOffsets, kTiffTileByteCounts, pixels);
   if (!whole) return {};
   if (pixels.size() % 2 != 0) pixels.push_back('\0');
   const std::uint64_t directory_at = dialect.header_size() + pixels.size();

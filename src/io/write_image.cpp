@@ -15,8 +15,7 @@ void write_mat(const std::filesystem::path& path, const cv::Mat& picture) {
   std::vector<std::uint8_t> bytes;
   const std::string extension = path.has_extension() ? path.extension().string() : ".png";
   const OpencvCodecs& codecs = opencv_codecs();
-  constexpr int kJpegQuality = 95;
-  if (!codecs.can_encode(extension) || !codecs.encode(extension, picture, kJpegQuality, bytes))
+  if (!codecs.can_encode(extension) || !codecs.encode(extension, picture, std::nullopt, bytes))
     throw Error(path.string(), "no picture format is known for '" + extension + "'", "use .png");
   write_file(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }

@@ -17,6 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using ::testing::StartsWith;
 
 class Cli : public ::testing::Test {
@@ -47,6 +48,16 @@ class Cli : public ::testing::Test {
   static TemporaryFolder* folder_;
 };
 TemporaryFolder* Cli::folder_ = nullptr;
+
+TEST(Program, StartsWithoutOpencvsCodecs) {
+  // They stand on 200 shared libraries: half of the program's start. Who calls them goes through
+  // io/opencv_codecs.h.
+  const auto needed = run_shell("readelf -d " + std::string(LIGHTSTRIPE_BINARY));
+  ASSERT_EQ(needed.exit_code, 0) << needed.err;
+  EXPECT_THAT(needed.out, HasSubstr("libopencv_core"));
+  for (const char* codecs : {"imgcodecs", "videoio", "highgui"})
+    EXPECT_THAT(needed.out, Not(HasSubstr(std::string("libopencv_") + codecs)));
+}
 
 TEST_F(Cli, CalibratedRigIsCloseToTheTrueOne) {
   const Rig rig = read_rig(data() / "rig.yaml"), truth = read_rig(data() / "truth/rig.yaml");
