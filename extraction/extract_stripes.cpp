@@ -240,6 +240,18 @@ void finish_lines(const Run<T>& run, ScaleGroup& group) {
   add_asymmetry(run.image, kernels, group.lines, w.asymmetry);
 }
 
+/// Where the light has grain, by the weights that are best there.
+template <class T>
+void recentre(const Run<T>& run) {
+  ErrorWorkspace& errors = run.w.errors;
+  errors.by_kernels = errors.differences;
+  errors.common_by_kernels = errors.common;
+  for (ScaleGroup& group : run.w.groups.used())
+    recentre_lines(run.image, *group.kernels, group.lines, errors);
+  errors.common = common_scatter(errors.differences, errors.common_by_kernels.grain_px);
+  errors.next = 0;
+}
+
 /// What all lines of the picture tell of its scatter.
 template <class T>
 void look_at_scatter(const Run<T>& run) {
@@ -251,6 +263,9 @@ void look_at_scatter(const Run<T>& run) {
     look_at_scatter(run.image, *group.kernels, group.lines, errors);
   }
   errors.common = common_scatter(errors.differences);
+  errors.by_kernels.clear();
+  // On a board the print scatters rows like grain, and edges of the print are no laser's profile.
+  if (errors.common.grain_px > 0 && has_ridges(run.options.method) && !run.options.on_pattern) recentre(run);
 }
 
 /// Nobody said how wide the stripes are, and the method can tell line by line.

@@ -92,6 +92,7 @@ struct LineErrors {
   double photons = 0;     ///< at the typical intensity, beyond the background's noise
   double grain = 0;       ///< speckle, texture
   double row = 0;         ///< of a single row's centre
+  double left = 0;        ///< more, where the rows are still weighed by the kernels
 };
 
 template <class T>
@@ -107,7 +108,11 @@ LineErrors errors_of_line(ImageView<T> image, const DerivativeKernels& kernels, 
                          lines, r, [](const StripePoint& p) { return p.strength; }, w.values));
   const double camera = std::pow(centre_sigma(kernels, background_noise, strength), 2);
   r.shared_px = kSharedBySigma * kernels.sigma;
-  const RowScatter scatter = fit_scatter(w.differences[w.next++], w.common);
+  const RowScatter scatter = fit_scatter(w.differences[w.next], w.common);
+  if (!w.by_kernels.empty())
+    e.left = std::max(0.0, fit_scatter(w.by_kernels[w.next], w.common_by_kernels).of_point(kernels.sigma) -
+                               scatter.of_point(kernels.sigma));
+  ++w.next;
   e.grain = scatter.grained_point(kernels.sigma);
   const double photons = photon_noise(image, lines, r, background_noise, e.intensity, w.values);
   e.photons = std::pow(centre_sigma(kernels, std::sqrt(photons * e.intensity), strength), 2);
@@ -138,14 +143,16 @@ double share_outside(ImageView<T> image, double sigma, const StripePoint& p) {
   return inside > 3 * sigma ? 0.0 : 0.5 * std::erfc((inside + 0.5) / (sigma * std::numbers::sqrt2));
 }
 
+/// `recentred`: the share of the point's rows that grain_centres weighed; `outside`: that beyond the border.
 double predicted_error(const LineErrors& e, const DerivativeKernels& kernels, const StripePoint& p,
-                       double outside) {
+                       double recentred, double outside) {
   // A bridged point is as good as the curve between its neighbours: it has their scatter, and more.
   const double own = centre_sigma(kernels, e.background, p.strength);
   const double camera = (p.flags & kStripeBridged) == 0 ? own : std::max(5 * own, 0.1 * kernels.sigma);
   // Photons are the noisier the dimmer the line is; speckle is not.
   const double light = std::max(static_cast<double>(p.intensity), 0.1 * e.intensity);
-  return std::sqrt(camera * camera + e.photons * e.intensity / light + e.grain + outside * outside * e.row);
+  return std::sqrt(camera * camera + e.photons * e.intensity / light + e.grain + (1 - recentred) * e.left +
+                   outside * outside * e.row);
 }
 
 }  // namespace
@@ -158,12 +165,22 @@ void look_at_scatter(ImageView<T> image, const DerivativeKernels& kernels, const
 }
 
 template <class T>
+void recentre_lines(ImageView<T> image, const DerivativeKernels& kernels, LineSet& lines, ErrorWorkspace& w) {
+  lines.recentred.assign(lines.points.size(), 0);
+  for (const LineRange& r : lines.lines) {
+    recentre_in_grain(image, kernels, w.common_by_kernels, r, lines, w.differences[w.next], w.grain, w.rows);
+    ++w.next;
+  }
+}
+
+template <class T>
 void predict_errors(ImageView<T> image, const DerivativeKernels& kernels, double background_noise,
                     LineSet& lines, ErrorWorkspace& w) {
   for (LineRange& r : lines.lines) {
     const LineErrors errors = errors_of_line(image, kernels, background_noise, lines, r, w);
     for (std::size_t i = r.begin; i < r.end; ++i)
       lines.points[i].sigma_px = predicted_error(errors, kernels, lines.points[i],
+                                                 i < lines.recentred.size() ? lines.recentred[i] : 0.0,
                                                  share_outside(image, kernels.sigma, lines.points[i]));
   }
 }
@@ -176,6 +193,8 @@ template void look_at_scatter<std::uint8_t>(ImageView8, const DerivativeKernels&
                                             ErrorWorkspace&);
 template void look_at_scatter<std::uint16_t>(ImageView16, const DerivativeKernels&, const LineSet&,
                                              ErrorWorkspace&);
+template void recentre_lines<std::uint8_t>(ImageView8, const DerivativeKernels&, LineSet&, ErrorWorkspace&);
+template void recentre_lines<std::uint16_t>(ImageView16, const DerivativeKernels&, LineSet&, ErrorWorkspace&);
 template void predict_errors<std::uint8_t>(ImageView8, const DerivativeKernels&, double, LineSet&,
                                            ErrorWorkspace&);
 template void predict_errors<std::uint16_t>(ImageView16, const DerivativeKernels&, double, LineSet&,

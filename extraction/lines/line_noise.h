@@ -7,6 +7,7 @@
 
 #include "core/image.h"
 #include "extraction/kernels/kernels.h"
+#include "extraction/lines/grain_centres.h"
 #include "extraction/lines/line_set.h"
 #include "extraction/lines/row_scatter.h"
 
@@ -24,6 +25,9 @@ struct ErrorWorkspace {
   RowScatterWorkspace rows;
   std::vector<RowDifferences> differences;  ///< of all lines of the picture, in order
   CommonScatter common;
+  std::vector<RowDifferences> by_kernels;  ///< before recentre_lines(); empty without it
+  CommonScatter common_by_kernels;
+  GrainWorkspace grain;
   std::size_t next = 0;  ///< of the differences, that predict_errors() comes to
   std::vector<float> values;
 };
@@ -33,6 +37,12 @@ struct ErrorWorkspace {
 template <class T>
 void look_at_scatter(ImageView<T> image, const DerivativeKernels& kernels, const LineSet& lines,
                      ErrorWorkspace& workspace);
+
+/// Moves the lines to the centres of least variance in grain (see grain_centres.h) and looks at their rows
+/// anew. All lines of a picture come before common_scatter() once more.
+template <class T>
+void recentre_lines(ImageView<T> image, const DerivativeKernels& kernels, LineSet& lines,
+                    ErrorWorkspace& workspace);
 
 /// Sets sigma_px of every point: the camera's noise by the point's strength, and the scatter of the rows
 /// along its line (photon noise, speckle, texture).

@@ -24,12 +24,14 @@ struct LineSet {
   std::vector<float>
       half_level_widths;          ///< px, one a point once they are measured: full width at half the peak
   std::vector<float> systematic;  ///< px, 1 sigma, one a point once known: what neighbours share, not scatter
+  std::vector<float> recentred;   ///< one a point or none: the share of its rows that grain_centres weighed
 
   void clear() {
     points.clear();
     lines.clear();
     half_level_widths.clear();
     systematic.clear();
+    recentred.clear();
   }
 };
 

@@ -8,8 +8,8 @@
 #include <limits>
 #include <numbers>
 
-#include "extraction/follow/direction_guided_ridge.h"
 #include "extraction/kernels/kernels_window.h"
+#include "extraction/lines/row_crossing.h"
 
 namespace lightstripe {
 namespace {
@@ -25,14 +25,6 @@ constexpr double kCommonRows = 100;
 /// differ by less than this are equally good. Rows count as independent unless they clearly are not.
 constexpr double kTolerance = 1, kToleranceOfWhite = 25, kToleranceOfAnother = 3;  // of another line
 constexpr float kGap = std::numeric_limits<float>::quiet_NaN();
-
-/// The row or column that crosses a line at one point.
-struct RowCrossing {
-  bool is_row = false;
-  int index = 0;      ///< of the row or column
-  double centre = 0;  ///< px along it
-  double cosine = 1;  ///< of the angle between it and the line's normal
-};
 
 /// A row that crosses a line obliquely looks at it across with a scale smaller by the cosine.
 struct ObliqueView {
@@ -51,15 +43,6 @@ struct ObliqueView {
 /// cosine. Speckle is as strong as the light: its variance goes as (1 / sigma^2 + 1 / s^2)^(3/2).
 double error_in_speckle(double cosine, double sharper) {
   return std::sqrt(cosine * cosine * cosine * sharper);
-}
-
-RowCrossing row_crossing_at(const StripePoint& p) {
-  const bool is_row = std::abs(p.normal_x) >= std::abs(p.normal_y);
-  const double across = is_row ? p.normal_x : p.normal_y, along = is_row ? p.normal_y : p.normal_x;
-  const double place = is_row ? p.y : p.x, centre = is_row ? p.x : p.y;
-  const int index = nearest_pixel(place);
-  // The line goes on in its own direction from the point to the row's middle.
-  return {is_row, index, centre - (index - place) * along / across, std::abs(across)};
 }
 
 /// The centre of one row less that of the line, px along the row, for kernels along the row only.
@@ -81,19 +64,6 @@ double row_offset(ImageView<T> image, const DerivativeKernels& kernels, const Ro
       slope += weights[k] * static_cast<float>(line[std::clamp(first + k, 0, count - 1) * step]);
   }
   return at.value() - c.centre + double{slope} / (strength * c.cosine * c.cosine);
-}
-
-/// Whether the line bends too much around a point for its rows to be told from its shape: a radius below 40
-/// sigma, by the points 8 sigma away to both sides.
-bool bends_at(const LineSet& lines, const LineRange& r, std::size_t i, double sigma) {
-  const auto reach = std::min(static_cast<std::size_t>(8 * sigma), (r.size() - 1) / 2);
-  const std::size_t middle = std::clamp(i, r.begin + reach, r.end - 1 - reach);
-  const StripePoint &a = lines.points[middle - reach], &b = lines.points[middle],
-                    &c = lines.points[middle + reach];
-  const double along_x = c.x - a.x, along_y = c.y - a.y, square = along_x * along_x + along_y * along_y;
-  // 8 * sagitta * 40 sigma > chord^2, all of it squared: the sagitta is this product over the chord.
-  const double product = 8 * 40 * sigma * ((b.x - a.x) * along_y - (b.y - a.y) * along_x);
-  return product * product > square * square * square;
 }
 
 /// Each row's centre less the line's, px across the line, as large as the kernels' own scale would scatter in
@@ -309,15 +279,9 @@ double RowScatter::grained_point(double sigma) const {
 
 double RowScatter::grained_density() const { return kRootTwoPi * grain_variance * grain_px; }
 
-template <class T>
-RowDifferences look_at_rows(ImageView<T> image, const DerivativeKernels& kernels, const LineSet& lines,
-                            const LineRange& range, RowScatterWorkspace& w) {
+RowDifferences differences_of_rows(double sigma, double cosine, RowScatterWorkspace& w) {
   RowDifferences line;
-  line.sigma = kernels.sigma;
-  if (range.size() == 0) return line;
-  const double width = lines.points[range.begin + range.size() / 2].width;  // 2 sqrt(3) s
-  const ObliqueView view{std::max(width * width / 12, 0.25), kernels.sigma * kernels.sigma};
-  const double cosine = collect_offsets(image, kernels, lines, range, view, w.offsets);
+  line.sigma = sigma;
   find_runs(w.offsets, w.runs);
   line.step = 1 / cosine;
   for (std::size_t k = 0; k < kLags; ++k) {
@@ -326,13 +290,28 @@ RowDifferences look_at_rows(ImageView<T> image, const DerivativeKernels& kernels
   }
   line.rows = static_cast<double>(w.squares.size());
   line.white = expected_differences(kIndependent * line.step, line.sigma, line.step);
+  return line;
+}
+
+template <class T>
+RowDifferences look_at_rows(ImageView<T> image, const DerivativeKernels& kernels, const LineSet& lines,
+                            const LineRange& range, RowScatterWorkspace& w) {
+  if (range.size() == 0) return {.sigma = kernels.sigma};
+  const double width = lines.points[range.begin + range.size() / 2].width;  // 2 sqrt(3) s
+  const ObliqueView view{std::max(width * width / 12, 0.25), kernels.sigma * kernels.sigma};
+  const double cosine = collect_offsets(image, kernels, lines, range, view, w.offsets);
+  RowDifferences line = differences_of_rows(kernels.sigma, cosine, w);
   // In white noise the variance goes as (s^2 + sigma^2)^3 / sigma^3: so much more than in speckle.
   line.white_factor = view.sharper(cosine);
   return line;
 }
 
 CommonScatter common_scatter(std::span<const RowDifferences> lines) {
-  CommonScatter common{common_grain(lines), 0};
+  return common_scatter(lines, common_grain(lines));
+}
+
+CommonScatter common_scatter(std::span<const RowDifferences> lines, double grain_px) {
+  CommonScatter common{grain_px, 0};
   if (common.grain_px == 0) return common;
   double rows = 0, variance = 0;
   for (const RowDifferences& line : lines) {

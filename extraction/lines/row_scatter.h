@@ -61,6 +61,11 @@ template <class T>
 RowDifferences look_at_rows(ImageView<T> image, const DerivativeKernels& kernels, const LineSet& lines,
                             const LineRange& range, RowScatterWorkspace& workspace);
 
+/// What `workspace.offsets` of one line show: rows in order, px across the line against the mean of their
+/// neighbours by a Gaussian of `sigma` px along it, NaN where one does not follow the other. `cosine`: mean
+/// of the angle between the rows and the line's normal.
+RowDifferences differences_of_rows(double sigma, double cosine, RowScatterWorkspace& workspace);
+
 /// What the lines of one picture share: the grain is that of the lens, and its variance grows as the width.
 struct CommonScatter {
   double grain_px = 0;      ///< 0: the rows are independent
@@ -69,6 +74,8 @@ struct CommonScatter {
 
 /// One line alone has too few rows to tell its grain for sure.
 CommonScatter common_scatter(std::span<const RowDifferences> lines);
+/// The same where the grain is known.
+CommonScatter common_scatter(std::span<const RowDifferences> lines, double grain_px);
 
 /// Fits the differences of one line by the common grain. A short line's grained variance leans on the common
 /// one; a line with less than 24 usable rows has nothing else.

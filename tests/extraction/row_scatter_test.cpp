@@ -26,6 +26,7 @@ RowScatter measured(const RealStripe& stripe) {
   const Image8 picture = picture_of(stripe, 5);
   ExtractionOptions options;
   options.sigma = stripe.sigma;
+  options.on_pattern = true;  // else grain_centres moves the line to where other weights see it
   const auto result = extract_stripes(picture.view(), options);
   LineSet lines;
   if (!result.stripes.empty()) lines.points = result.stripes.front().points;
@@ -74,9 +75,11 @@ TEST(RowScatter, ObliqueLinesAreJudgedAsUprightOnes) {
             }
         // 3 x 820 rows are some 300 independent ones: 8 % for 1 sigma of the ratio. Beyond 40 degrees rows
         // share pixels with the line's kernels in a way that the model does not know, and count for more than
-        // they are (0.2 in the worst case, 0.08 before their scale was).
+        // they are (0.2 in the worst case, 0.08 before their scale was). In grain a narrow kernel averages
+        // over less of the line than an oblique row crosses (grain_centres looks 2.5 standard deviations
+        // aside).
         const bool steep = std::abs(slope) > 0.8;
-        EXPECT_GE(actual / predicted, !steep         ? 0.55
+        EXPECT_GE(actual / predicted, !steep         ? (kernel > 1.5 || contrast == 0 ? 0.55 : 0.4)
                                       : kernel > 1.5 ? 0.5
                                                      : 0.15)
             << slope << ' ' << contrast << ' ' << kernel;

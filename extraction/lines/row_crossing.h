@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+// The row or column of the image that crosses a line at one of its points.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "extraction/follow/direction_guided_ridge.h"
+#include "extraction/lines/line_set.h"
+
+namespace lightstripe {
+
+struct RowCrossing {
+  bool is_row = false;
+  int index = 0;      ///< of the row or column
+  double centre = 0;  ///< px along it
+  double cosine = 1;  ///< of the angle between it and the line's normal
+};
+
+inline RowCrossing row_crossing_at(const StripePoint& p) {
+  const bool is_row = std::abs(p.normal_x) >= std::abs(p.normal_y);
+  const double across = is_row ? p.normal_x : p.normal_y, along = is_row ? p.normal_y : p.normal_x;
+  const double place = is_row ? p.y : p.x, centre = is_row ? p.x : p.y;
+  const int index = nearest_pixel(place);
+  // The line goes on in its own direction from the point to the row's middle.
+  return {is_row, index, centre - (index - place) * along / across, std::abs(across)};
+}
+
+/// Whether the line bends too much around a point for its rows to be told from its shape: a radius below 40
+/// sigma, by the points 8 sigma away to both sides.
+inline bool bends_at(const LineSet& lines, const LineRange& r, std::size_t i, double sigma) {
+  const auto reach = std::min(static_cast<std::size_t>(8 * sigma), (r.size() - 1) / 2);
+  const std::size_t middle = std::clamp(i, r.begin + reach, r.end - 1 - reach);
+  const StripePoint &a = lines.points[middle - reach], &b = lines.points[middle],
+                    &c = lines.points[middle + reach];
+  const double along_x = c.x - a.x, along_y = c.y - a.y, square = along_x * along_x + along_y * along_y;
+  // 8 * sagitta * 40 sigma > chord^2, all of it squared: the sagitta is this product over the chord.
+  const double product = 8 * 40 * sigma * ((b.x - a.x) * along_y - (b.y - a.y) * along_x);
+  return product * product > square * square * square;
+}
+
+}  // namespace lightstripe
