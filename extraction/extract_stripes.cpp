@@ -23,6 +23,7 @@
 #include "extraction/lines/line_junctions.h"
 #include "extraction/lines/line_measure.h"
 #include "extraction/lines/line_noise.h"
+#include "extraction/lines/line_set.h"
 #include "extraction/lines/smoothing.h"
 #include "extraction/parsed_options.h"
 #include "extraction/track/track_stripes.h"
