@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "calib/calibrate_rig.h"
 #include "core/random.h"
@@ -16,7 +15,6 @@ using namespace lightstripe;
 
 const Camera kTrueCamera{960, 700, 1640, 1640, 480, 350, {-0.08, 0.1, 2e-4, -1e-4, 0}};
 const Plane kTrueLaser{Eigen::Vector3d(0, 0.8, 0.6), 330};
-constexpr double kDegree = std::numbers::pi / 180;
 
 constexpr double kNoise_px = 0.05;
 

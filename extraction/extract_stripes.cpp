@@ -23,6 +23,8 @@
 #include "extraction/lines/line_junctions.h"
 #include "extraction/lines/line_measure.h"
 #include "extraction/lines/line_noise.h"
+#include "extraction/lines/line_set.h"
+#include "extraction/lines/ranked_value.h"
 #include "extraction/lines/smoothing.h"
 #include "extraction/parsed_options.h"
 #include "extraction/track/track_stripes.h"
@@ -177,7 +179,7 @@ std::optional<double> found_width(ExtractionWorkspace& w) {
       if (p.flags == 0 && p.intensity > 0.3F * brightest) w.values.push_back(static_cast<float>(p.width));
     }
   if (w.values.empty()) return std::nullopt;
-  return median_of(w.values);
+  return ranked_median(w.values);
 }
 
 std::size_t measured_points(const ExtractionWorkspace& w) {

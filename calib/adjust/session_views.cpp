@@ -160,6 +160,14 @@ SessionViews prepare_session_views(const CalibrationObservations& observations) 
   return result;
 }
 
+void refuse_contradicting_poses(int contradicting, int common) {
+  if (contradicting == 0 || 2 * contradicting < common) return;
+  throw NotUsable(
+      fmt::format("the sensors contradict each other in {} of {} of the board; check that "
+                  "pictures with the same text in their names show the same moment",
+                  contradicting, counted(common, "common pose")));
+}
+
 std::vector<StripePoint> independent_points(const std::vector<StripePoint>& points) {
   constexpr double kMinSpacingPx = 2;  // also where the width is unknown
   std::vector<StripePoint> kept;

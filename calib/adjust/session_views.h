@@ -14,6 +14,10 @@ namespace lightstripe {
 /// stripe.
 SessionViews prepare_session_views(const CalibrationObservations& observations);
 
+/// Throws NotUsable where that many of the poses common to several sensors, half or more, are not where the
+/// first of them sees them: pictures of different moments were paired.
+void refuse_contradicting_poses(int contradicting, int common);
+
 /// Every k-th point, so that neighbours are at least as far apart as extraction's kernel averages along the
 /// line: its centre points are correlated over 2 sqrt(pi) sigma = 1.02 widths. Bridged points are left out.
 std::vector<StripePoint> independent_points(const std::vector<StripePoint>& points);

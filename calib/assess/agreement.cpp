@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 
+#include "calib/adjust/session_views.h"
 #include "calib/assess/verdict.h"
 #include "core/counted.h"
 #include "core/robust.h"
@@ -64,11 +65,7 @@ void refuse_contradicting_sensors(const SessionViews& session,
     ++common;
     contradicting += count.second > 0;
   }
-  if (2 * contradicting >= common && contradicting > 0)
-    throw NotUsable(
-        fmt::format("the sensors contradict each other in {} of {} of the board; check that "
-                    "pictures with the same text in their names show the same moment",
-                    contradicting, counted(common, "common pose")));
+  refuse_contradicting_poses(contradicting, common);
 }
 
 void refuse_contradicting_travel(const SessionViews& session,

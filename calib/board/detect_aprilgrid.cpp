@@ -6,12 +6,12 @@
 #include <array>
 #include <cmath>
 #include <opencv2/calib3d.hpp>
-#include <opencv2/imgproc.hpp>
 #include <optional>
 
 #include "calib/board/aruco_dictionary.h"
 #include "calib/board/board_reasons.h"
 #include "calib/board/detect_circles.h"
+#include "calib/board/refine_corner.h"
 #include "calib/observations.h"
 
 namespace lightstripe {
@@ -107,11 +107,7 @@ void refine_tag_corners(const cv::Mat& gray, const Target& target, const std::ve
     for (const int i : corners_of_tag(target, tag.id)) {
       auto& corner = corners[static_cast<std::size_t>(i)];
       if (!is_seen(corner)) continue;
-      std::vector<cv::Point2f> point{
-          cv::Point2f(static_cast<float>(corner.x()), static_cast<float>(corner.y()))};
-      cv::cornerSubPix(gray, point, cv::Size(half, half), cv::Size(-1, -1),
-                       cv::TermCriteria(cv::TermCriteria::COUNT + cv::TermCriteria::EPS, 50, 1e-4));
-      const Vector2d refined(point[0].x, point[0].y);
+      const Vector2d refined = refined_corner(gray, corner, half);
       corner = (refined - corner).norm() < 0.2 * side ? refined : unseen_corner();
     }
   }

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <opencv2/calib3d.hpp>
-#include <opencv2/imgproc.hpp>
 #include <optional>
 
 #include "calib/board/board_map.h"
@@ -14,6 +13,7 @@
 #include "calib/board/detect_circles.h"
 #include "calib/board/observe_board.h"
 #include "calib/board/other_board.h"
+#include "calib/board/refine_corner.h"
 #include "calib/board/search_size.h"
 #include "calib/observations.h"
 #include "core/error.h"
@@ -119,18 +119,14 @@ double distance_to_next(const Corners& corners, std::size_t i, int columns) {
   return nearest;
 }
 
-/// cv::cornerSubPix with a window of each corner's own size: 0.02 to 0.04 px a coordinate in renders with 1.5
-/// grey levels of noise, where findChessboardCornersSB alone is at 0.05 to 0.14 px.
+/// Each corner in a window of its own size: 0.02 to 0.04 px a coordinate in renders with 1.5 grey levels of
+/// noise, where findChessboardCornersSB alone is at 0.05 to 0.14 px.
 Corners refined(const cv::Mat& gray, const Corners& corners, const Target& target) {
   Corners result;
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const int half = std::max(
         2, static_cast<int>(std::lround(kRefineWindow * distance_to_next(corners, i, target.columns))));
-    std::vector<cv::Point2f> point{
-        cv::Point2f(static_cast<float>(corners[i].x()), static_cast<float>(corners[i].y()))};
-    cv::cornerSubPix(gray, point, cv::Size(half, half), cv::Size(-1, -1),
-                     cv::TermCriteria(cv::TermCriteria::COUNT + cv::TermCriteria::EPS, 50, 1e-4));
-    result.emplace_back(point[0].x, point[0].y);
+    result.push_back(refined_corner(gray, corners[i], half));
   }
   return result;
 }

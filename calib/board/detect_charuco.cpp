@@ -8,10 +8,10 @@
 #include <array>
 #include <cmath>
 #include <opencv2/aruco/charuco.hpp>
-#include <opencv2/imgproc.hpp>
 
 #include "calib/board/aruco_dictionary.h"
 #include "calib/board/board_reasons.h"
+#include "calib/board/refine_corner.h"
 #include "calib/board/seen_corners.h"
 #include "core/counted.h"
 #include "core/error.h"
@@ -60,11 +60,7 @@ void refine_between_markers(const cv::Mat& gray, const Target& target, std::vect
     }
     const double gap_px = side * (target.pitch_x - target.marker_mm) / 2 / target.pitch_x;
     const int half = std::max(2, static_cast<int>(kMarkerWindow * gap_px));
-    std::vector<cv::Point2f> point{
-        cv::Point2f(static_cast<float>(corner.x()), static_cast<float>(corner.y()))};
-    cv::cornerSubPix(gray, point, cv::Size(half, half), cv::Size(-1, -1),
-                     cv::TermCriteria(cv::TermCriteria::COUNT + cv::TermCriteria::EPS, 50, 1e-4));
-    corner = {point[0].x, point[0].y};
+    corner = refined_corner(gray, corner, half);
   }
 }
 

@@ -10,7 +10,6 @@
 
 #include "calib/adjust/session_views.h"
 #include "calib/start/initial_values.h"
-#include "core/counted.h"
 
 namespace lightstripe {
 namespace {
@@ -166,11 +165,7 @@ void gather_poses(InitialValues& values) {
       values.cam_from_board[i] = values.cam_from_board[i] * board_turn(m.target, k);
     }
   }
-  if (contradicting > 0 && 2 * contradicting >= compared)
-    throw NotUsable(
-        fmt::format("the sensors contradict each other in {} of {} of the board; check that "
-                    "pictures with the same text in their names show the same moment",
-                    contradicting, counted(compared, "common pose")));
+  refuse_contradicting_poses(contradicting, compared);
   keep_views(values, keep);
   for (const auto& pose : poses) values.state.first_from_board.push_back(pose.value_or(Rigid3{}));
 }

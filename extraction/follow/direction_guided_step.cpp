@@ -65,6 +65,7 @@ class Follower {
  private:
   RidgeSearch predict(const Tip& tip, const Direction& direction, int steps, double aside) const;
   bool is_free(double x, double y) const;
+  std::optional<RidgePlace> find_free(const RidgeSearch& search) const;
   std::optional<RidgePlace> beside(const Tip& tip, const RidgeSearch& ahead) const;
   std::optional<RidgePlace> around_corner(const Tip& tip, const RidgeSearch& ahead) const;
   bool meets_line(const Tip& tip) const;
@@ -116,6 +117,14 @@ bool Follower<T>::is_free(double x, double y) const {
          label == previous_;
 }
 
+/// The ridge that is found, where neither it nor the place searched is another line's.
+template <class T>
+std::optional<RidgePlace> Follower<T>::find_free(const RidgeSearch& search) const {
+  if (!is_free(search.x, search.y)) return std::nullopt;
+  const auto found = finder_.find(search);
+  return found && is_free(found->x, found->y) ? found : std::nullopt;
+}
+
 /// The paper's step 3: of the predicted place's neighbours the one with the smallest distance + angle
 /// difference.
 template <class T>
@@ -125,9 +134,8 @@ std::optional<RidgePlace> Follower<T>::beside(const Tip& tip, const RidgeSearch&
   for (const double aside : {-1.0, 1.0}) {
     RidgeSearch search = predict(tip, tip.direction, 1, aside);
     search.clear_only = true;
-    if (!is_free(search.x, search.y)) continue;
-    const auto found = finder_.find(search);
-    if (!found || !is_free(found->x, found->y)) continue;
+    const auto found = find_free(search);
+    if (!found) continue;
     const double cost = std::hypot(found->x - ahead.x, found->y - ahead.y) +
                         std::acos(std::clamp(found->direction.dot(tip.direction), -1.0, 1.0));
     if (cost >= least_cost) continue;
@@ -148,9 +156,8 @@ std::optional<RidgePlace> Follower<T>::around_corner(const Tip& tip, const Ridge
     search.clear_only = true;
     search.grain_counts = false;  // grains lie in every direction
     search.least_strength = std::max(search.least_strength, kTuning.corner_strength * tip.recent_strength);
-    if (!is_free(search.x, search.y)) continue;
-    const auto found = finder_.find(search);
-    if (!found || !is_free(found->x, found->y)) continue;
+    const auto found = find_free(search);
+    if (!found) continue;
     const double distance = std::hypot(found->x - ahead.x, found->y - ahead.y);
     if (distance >= nearest) continue;
     nearest = distance;
@@ -183,13 +190,12 @@ std::optional<Landing> Follower<T>::look_ahead(const Tip& tip, int nearest, bool
       far ? std::max(1, static_cast<int>(kTuning.step_behind_crossing * finder_.kernels.sigma)) : 1;
   for (int k = nearest; k <= farthest; k += step) {
     RidgeSearch search = predict(tip, tip.direction, k, 0);
-    if (!is_free(search.x, search.y)) continue;
     search.reach = std::min(kTuning.landing_reach + kTuning.landing_spread * k, kTuning.most_landing_reach);
     search.least_cosine = kTuning.landing_cosine;
     search.clear_only = true;
     search.least_strength = std::max(search.least_strength, kTuning.landing_strength * tip.recent_strength);
-    const auto found = finder_.find(search);
-    if (!found || !is_free(found->x, found->y)) continue;
+    const auto found = find_free(search);
+    if (!found) continue;
     // One point may be noise, or still be drawn aside by what was crossed: further ones have to agree.
     const Tip landed{found->x, found->y, found->direction, tip.recent_strength, 0, 0, {}};
     RidgeSearch next = predict(landed, landed.direction, confirmed_after, 0);

@@ -11,7 +11,8 @@
 namespace lightstripe {
 namespace {
 
-double density(double z) { return 0.3989422804 * std::exp(-0.5 * z * z); }
+/// Of the standard normal distribution.
+double density(double z) { return std::numbers::inv_sqrtpi / std::numbers::sqrt2 * std::exp(-0.5 * z * z); }
 
 constexpr double kFirst = -1, kStep = 0.125;  // of z in the tables
 constexpr auto kTries = static_cast<std::size_t>((kFarthestInside - kFirst) / kStep) + 1;

@@ -9,6 +9,7 @@
 
 #include "extraction/follow/direction_guided_ridge.h"
 #include "extraction/lines/line_measure.h"
+#include "extraction/lines/ranked_value.h"
 
 namespace lightstripe {
 namespace {
@@ -48,7 +49,7 @@ double median_of_known(const std::vector<float>& values, std::vector<float>& scr
   scratch.clear();
   std::copy_if(values.begin(), values.end(), std::back_inserter(scratch),
                [](float v) { return !std::isnan(v); });
-  return median_of(scratch);
+  return ranked_median(scratch);
 }
 
 /// Every `step`-th point.

@@ -66,15 +66,4 @@ void find_fade_errors(const DerivativeKernels& kernels, LineSet& lines, std::vec
                  std::span(lines.systematic.data() + r.begin, r.size()), values);
 }
 
-void add_systematic_errors(LineSet& lines) {
-  if (lines.systematic.size() != lines.points.size()) return;  // not known
-  for (const LineRange& r : lines.lines)
-    for (std::size_t i = r.begin; i < r.end; ++i) {
-      const double error{lines.systematic[i]};
-      if (error > 0.1 * lines.points[i].sigma_px)
-        lines.points[i].sigma_px =
-            std::sqrt(lines.points[i].sigma_px * lines.points[i].sigma_px + error * error);
-    }
-}
-
 }  // namespace lightstripe

@@ -17,7 +17,4 @@ namespace lightstripe {
 /// memory.
 void find_fade_errors(const DerivativeKernels& kernels, LineSet& lines, std::vector<float>& values);
 
-/// Adds `lines.systematic` to the points' sigma_px. After smoothing, which takes sigma_px for scatter.
-void add_systematic_errors(LineSet& lines);
-
 }  // namespace lightstripe

@@ -80,7 +80,7 @@ double median_width(Trial& t, const LineSet& lines, const LineRange& r) {
   for (std::size_t i = r.begin; i < r.end; i += sample_step(r))
     if ((lines.points[i].flags & kStripeBridged) == 0)
       t.w.scratch.push_back(static_cast<float>(lines.points[i].width));
-  return median_of(t.w.scratch);
+  return ranked_median(t.w.scratch);
 }
 
 /// Replaces the points between two by a cubic that continues both sides; false where they do not fit.
@@ -204,7 +204,7 @@ double flank_ratio(Trial& t, const LineSet& lines, const LineRange& r) {
     const float smaller = t.w.measure.contrast[i], larger = 2 * p.intensity - smaller;
     t.w.scratch.push_back(larger > 0 ? std::max(smaller, 0.0F) / larger : 0.0F);
   }
-  return t.w.scratch.empty() ? 1.0 : median_of(t.w.scratch);
+  return t.w.scratch.empty() ? 1.0 : ranked_median(t.w.scratch);
 }
 
 LineFacts facts_of(Trial& t, const LineSet& lines, const LineRange& r) {

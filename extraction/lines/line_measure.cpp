@@ -51,7 +51,7 @@ std::size_t averaging_reach(const DerivativeKernels& kernels, double noise, cons
   m.values.clear();
   for (std::size_t i = r.begin; i < r.end; i += sample_step(r))
     m.values.push_back(static_cast<float>(lines.points[i].strength));
-  const double height = median_of(m.values) / kernels.matched_strength(),
+  const double height = ranked_median(m.values) / kernels.matched_strength(),
                ratio = 10 * noise / std::max(height, 1e-9);
   return static_cast<std::size_t>(std::min(0.5 * ratio * ratio, 3 * kernels.sigma));
 }
@@ -122,11 +122,6 @@ void measure_singly(ImageView<T> image, double sigma, double full_width, double 
 }
 
 }  // namespace
-
-double median_of(std::vector<float>& values) {
-  if (values.empty()) return 0;
-  return ranked_median(values);
-}
 
 template <class T>
 void measure_points(ImageView<T> image, const DerivativeKernels& kernels, double noise, LineSet& lines,

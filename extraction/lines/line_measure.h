@@ -12,9 +12,6 @@
 
 namespace lightstripe {
 
-/// Median of the values (their order may change); 0 for none.
-double median_of(std::vector<float>& values);
-
 /// Stride for statistics along a line; about 150 samples are enough.
 inline std::size_t sample_step(const LineRange& r) { return 1 + r.size() / 150; }
 

@@ -10,6 +10,7 @@
 #include "extraction/follow/line_point.h"
 #include "extraction/lines/cross_profile.h"
 #include "extraction/lines/line_measure.h"
+#include "extraction/lines/ranked_value.h"
 
 namespace lightstripe {
 namespace {
@@ -57,7 +58,7 @@ double noise_on_ridge(ImageView<T> image, const LineSet& lines, const LineRange&
         ridge_grey(image, a, fall) - 2 * ridge_grey(image, b, fall) + ridge_grey(image, c, fall);
     scratch.push_back(static_cast<float>(std::abs(second)));
   }
-  return scratch.size() < kLeast ? background_noise : kSecondDifferenceToSigma * median_of(scratch);
+  return scratch.size() < kLeast ? background_noise : kSecondDifferenceToSigma * ranked_median(scratch);
 }
 
 namespace {
@@ -67,7 +68,7 @@ double median_of_line(const LineSet& lines, const LineRange& r, double (*value)(
   scratch.clear();
   for (std::size_t i = r.begin; i < r.end; i += sample_step(r))
     scratch.push_back(static_cast<float>(value(lines.points[i])));
-  return median_of(scratch);
+  return ranked_median(scratch);
 }
 
 /// Photon noise alone, where a line is too short to measure its scatter: grey levels squared per grey level.

@@ -35,4 +35,7 @@ struct LineSet {
   }
 };
 
+/// Adds `lines.systematic` to the points' sigma_px. After smoothing, which takes sigma_px for scatter.
+void add_systematic_errors(LineSet& lines);
+
 }  // namespace lightstripe

@@ -13,7 +13,9 @@ namespace lightstripe {
 /// value compares.
 float ranked_value(std::span<float> values, std::size_t rank);
 
-/// The median; of an even number the upper one of the two in the middle.
-inline float ranked_median(std::span<float> values) { return ranked_value(values, values.size() / 2); }
+/// The median; of an even number the upper one of the two in the middle, 0 for none. May reorder the values.
+inline float ranked_median(std::span<float> values) {
+  return values.empty() ? 0.0F : ranked_value(values, values.size() / 2);
+}
 
 }  // namespace lightstripe

@@ -163,28 +163,34 @@ bool is_time_stamps(const std::vector<Numbers>& numbers, const Numbering& number
          !stamps_of(numbers, positions).empty();
 }
 
-FrameMap by_number(std::span<const FrameSource* const> sources, const std::vector<Numbers>& numbers,
-                   const Numbering& numbering) {
-  FrameMap map;
-  map.number_step = numbering.step;
-  map.first = std::numeric_limits<std::int64_t>::max();
-  for (const Numbers& of_source : numbers)
-    for (const std::int64_t n : of_source) {
-      const std::int64_t frame = (n - numbering.base) / numbering.step;
-      map.first = std::min(map.first, frame);
-      map.end = std::max(map.end, frame + 1);
-    }
-  map.index.assign(numbers.size(),
-                   std::vector<std::int32_t>(static_cast<std::size_t>(map.end - map.first), -1));
+/// Sets map.index; `place_of` tells how many frames a number lies behind the map's first one.
+template <class PlaceOf>
+void index_pictures(std::span<const FrameSource* const> sources, const std::vector<Numbers>& numbers,
+                    std::size_t num_frames, const PlaceOf& place_of, FrameMap& map) {
+  map.index.assign(numbers.size(), std::vector<std::int32_t>(num_frames, -1));
   for (std::size_t s = 0; s < numbers.size(); ++s)
     for (std::size_t i = 0; i < numbers[s].size(); ++i) {
-      const std::int64_t frame = (numbers[s][i] - numbering.base) / numbering.step;
-      std::int32_t& index = map.index[s][static_cast<std::size_t>(frame - map.first)];
+      std::int32_t& index = map.index[s][static_cast<std::size_t>(place_of(numbers[s][i]))];
       if (index >= 0)
         map.duplicate_pictures.push_back(sources[s]->name(static_cast<std::int64_t>(i)));
       else
         index = static_cast<std::int32_t>(i);
     }
+}
+
+FrameMap by_number(std::span<const FrameSource* const> sources, const std::vector<Numbers>& numbers,
+                   const Numbering& numbering) {
+  const auto frame_of = [&](std::int64_t n) { return (n - numbering.base) / numbering.step; };
+  FrameMap map;
+  map.number_step = numbering.step;
+  map.first = std::numeric_limits<std::int64_t>::max();
+  for (const Numbers& of_source : numbers)
+    for (const std::int64_t n : of_source) {
+      map.first = std::min(map.first, frame_of(n));
+      map.end = std::max(map.end, frame_of(n) + 1);
+    }
+  const auto place_of = [&](std::int64_t n) { return frame_of(n) - map.first; };
+  index_pictures(sources, numbers, static_cast<std::size_t>(map.end - map.first), place_of, map);
   return map;
 }
 
@@ -225,16 +231,10 @@ FrameMap by_stamp(std::span<const FrameSource* const> sources, const std::vector
                   Numbers stamps) {
   FrameMap map;
   map.end = static_cast<std::int64_t>(stamps.size());
-  map.index.assign(numbers.size(), std::vector<std::int32_t>(stamps.size(), -1));
-  for (std::size_t s = 0; s < numbers.size(); ++s)
-    for (std::size_t i = 0; i < numbers[s].size(); ++i) {
-      const auto at = std::lower_bound(stamps.begin(), stamps.end(), numbers[s][i]) - stamps.begin();
-      std::int32_t& index = map.index[s][static_cast<std::size_t>(at)];
-      if (index >= 0)
-        map.duplicate_pictures.push_back(sources[s]->name(static_cast<std::int64_t>(i)));
-      else
-        index = static_cast<std::int32_t>(i);
-    }
+  const auto place_of = [&](std::int64_t stamp) {
+    return std::lower_bound(stamps.begin(), stamps.end(), stamp) - stamps.begin();
+  };
+  index_pictures(sources, numbers, stamps.size(), place_of, map);
   map.stamps = std::move(stamps);
   return map;
 }

@@ -17,7 +17,6 @@ using Eigen::Vector3d;
 using testing::board_pose;
 using testing::calibrate_in;
 using ::testing::HasSubstr;
-using testing::kDegree;
 using testing::RenderedSession;
 using ::testing::StartsWith;
 

@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 
-#include <numbers>
 #include <string>
 #include <vector>
 
@@ -15,8 +14,6 @@
 #include "io/images.h"
 
 namespace lightstripe::testing {
-
-inline constexpr double kDegree = std::numbers::pi / 180;
 
 /// One sensor before a board of 11 x 8 corners, half a metre away, its laser from below.
 struct RenderedSession {

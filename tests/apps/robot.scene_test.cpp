@@ -15,7 +15,6 @@ namespace {
 
 using Eigen::Vector3d;
 using testing::calibrate_in;
-using testing::kDegree;
 using testing::RenderedSession;
 
 const Rigid3 kToolFromFirst{Eigen::Quaterniond(Eigen::AngleAxisd(0.5, Vector3d(1, 2, -1).normalized())),

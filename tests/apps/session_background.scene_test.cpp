@@ -39,7 +39,7 @@ TEST_F(SessionBackground, GivesTheLaserPlaneFromPicturesOfBoardAndLaserTogether)
   EXPECT_THAT(done.out, HasSubstr("camera: 8 of 8 stripes lie in the laser plane"));
   const Plane found = read_rig(folder_ / "rig.yaml", RigUse::kCameras).sensors.at(0).laser_planes.at(0),
               truth = session_.lasers[0];
-  EXPECT_GT(std::abs(found.normal.dot(truth.normal)), std::cos(0.1 * testing::kDegree));
+  EXPECT_GT(std::abs(found.normal.dot(truth.normal)), std::cos(0.1 * kDegree));
   const Eigen::Vector3d middle(0, 0, 500);  // the sheet crosses the line of sight there
   EXPECT_NEAR(found.signed_distance(middle), 0, 0.2);
 }

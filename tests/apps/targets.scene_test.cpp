@@ -23,7 +23,6 @@ using testing::board_pose;
 using testing::BoardLook;
 using testing::calibrate_in;
 using ::testing::HasSubstr;
-using testing::kDegree;
 using testing::render_board;
 using testing::RenderedSession;
 

@@ -22,7 +22,6 @@ namespace {
 using Eigen::Vector3d;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
-using testing::kDegree;
 
 const Rigid3 kToolFromFirst{Eigen::Quaterniond(Eigen::AngleAxisd(0.4, Vector3d(1, 2, -1).normalized())),
                             {80, -30, 120}};

@@ -35,10 +35,9 @@ TEST(BoardSpread, AnglesAndDepthsAreThoseOfTheBoards) {
   std::vector<double> to_laser;
   for (std::size_t i = 0; i < boards.size(); ++i) {
     const Eigen::Vector3d normal = boards[i].rotation * Eigen::Vector3d::UnitZ();
-    tilt = std::max(tilt, std::acos(normal.dot(mean.normalized())) / testing::kDegree);
+    tilt = std::max(tilt, std::acos(normal.dot(mean.normalized())) / kDegree);
     if (seen.sensors[0].views[i].stripes[0].size() > 10)
-      to_laser.push_back(std::acos(std::abs(normal.dot(truth.sensors[0].laser_planes[0].normal))) /
-                         testing::kDegree);
+      to_laser.push_back(std::acos(std::abs(normal.dot(truth.sensors[0].laser_planes[0].normal))) / kDegree);
     for (const auto& p : {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(100, 70, 0), Eigen::Vector3d(100, 0, 0),
                           Eigen::Vector3d(0, 70, 0)}) {
       near = std::min(near, (boards[i] * p).z());

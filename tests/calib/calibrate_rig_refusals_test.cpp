@@ -14,7 +14,6 @@ namespace {
 using Eigen::Vector3d;
 using testing::calibrate_with_warp;
 using ::testing::HasSubstr;
-using testing::kDegree;
 using testing::noisy;
 using ::testing::Not;
 using testing::observe;

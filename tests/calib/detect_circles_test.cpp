@@ -28,7 +28,6 @@ const Camera kCamera{800, 600, 1500, 1500, 402, 296, {}};
 
 /// The board's middle at a place, tilted and turned.
 Rigid3 pose_of(const Target& target, double tilt_x, double tilt_y, double roll, double depth) {
-  constexpr double kDegree = std::numbers::pi / 180;
   const Eigen::Quaterniond q = Eigen::AngleAxisd(tilt_x * kDegree, Vector3d::UnitX()) *
                                Eigen::AngleAxisd(tilt_y * kDegree, Vector3d::UnitY()) *
                                Eigen::AngleAxisd(roll * kDegree, Vector3d::UnitZ());

@@ -7,7 +7,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "calib/adjust/rig_state.h"
 #include "core/random.h"
@@ -18,7 +17,6 @@ namespace {
 using Eigen::Vector3d;
 using ::testing::HasSubstr;
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kTurnNoise = 0.02 * kDegree, kShiftNoise_mm = 0.1;
 
 const Rigid3 kToolFromFirst{Eigen::Quaterniond(Eigen::AngleAxisd(0.4, Vector3d(1, 2, -1).normalized())),

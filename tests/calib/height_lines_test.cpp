@@ -17,7 +17,6 @@ namespace {
 
 using Eigen::Vector3d;
 using ::testing::HasSubstr;
-using testing::kDegree;
 
 constexpr double kStripeNoisePx = 0.07;  // as in rendered pictures; corners have half of it
 const std::vector<double> kHeights{2.5, 5, 10, 15, 20, 30, 40, 50, 65, 80};

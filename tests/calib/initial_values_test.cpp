@@ -11,8 +11,6 @@
 namespace lightstripe {
 namespace {
 
-using testing::kDegree;
-
 struct Start {
   testing::SyntheticRig truth = testing::rail_rig(2, 8);
   InitialValues values;

@@ -44,8 +44,7 @@ TEST(JointAdjustment, AStripeThatSeemsExactByChanceDoesNotDecide) {
     const auto adjusted = adjust_jointly(start.session, start.state, {LensModel::kBrown4}, options);
     ASSERT_TRUE(adjusted.converged);
     const auto& found = adjusted.state.sensors[0].laser_planes[0].normal;
-    turns += std::pow(
-        std::asin(found.cross(truth.sensors[0].laser_planes[0].normal).norm()) / testing::kDegree, 2);
+    turns += std::pow(std::asin(found.cross(truth.sensors[0].laser_planes[0].normal).norm()) / kDegree, 2);
     predicted += std::pow(parameter_sigmas(start.session, adjusted).at("gauge.laser_planes.0.normal_deg"), 2);
   }
   const double ratio =

@@ -12,7 +12,6 @@
 namespace lightstripe {
 namespace {
 
-using testing::kDegree;
 using testing::observe;
 using testing::rail_rig;
 using testing::section_error;

@@ -17,7 +17,6 @@ namespace lightstripe {
 namespace {
 
 using Eigen::Vector3d;
-using testing::kDegree;
 
 /// Errors of one calibration beside their predictions.
 struct Trial {

@@ -167,7 +167,7 @@ struct Track {
     rig.target.marker_mm = 7;
     rig.target.columns = 170;
     const Vector3d normal = rig.sensors[1].laser_planes.front().normal;
-    facing = Eigen::AngleAxisd(-0.5 * 55 * testing::kDegree, normal);
+    facing = Eigen::AngleAxisd(-0.5 * 55 * kDegree, normal);
     const Vector3d x = facing * Vector3d::UnitX();
     across = (x - rig.direction * rig.direction.dot(x)).normalized();
     for (SensorState sensor : rail_rig(2, 9).sensors) {
@@ -184,7 +184,7 @@ struct Track {
   CalibrationObservations observe(std::uint64_t seed) const;
   /// Its middle `at` mm along `across`, tilted by up to these degrees about its length and against it.
   Rigid3 board(double at, double tilt_deg, double slant_deg, Random& random) const {
-    const double t = tilt_deg * testing::kDegree, s = slant_deg * testing::kDegree;
+    const double t = tilt_deg * kDegree, s = slant_deg * kDegree;
     const Eigen::Quaterniond q = facing * Eigen::AngleAxisd(random.uniform(-t, t), Vector3d::UnitX()) *
                                  Eigen::AngleAxisd(random.uniform(-s, s), Vector3d::UnitY()) *
                                  Eigen::AngleAxisd(random.uniform(-s, s), Vector3d::UnitZ());
@@ -284,7 +284,7 @@ CalibrationObservations Stand::observe(std::uint64_t seed) const {
   Random random(seed, 22);
   const Rigid3 board = testing::visible_board(rig, {.max_tilt_deg = 5}, random);
   for (const double angle : {-4.0, -2.0, 0.0, 2.0, 4.0}) {
-    const Eigen::Quaterniond turn(Eigen::AngleAxisd(angle * testing::kDegree, axis));
+    const Eigen::Quaterniond turn(Eigen::AngleAxisd(angle * kDegree, axis));
     const Rigid3 turned = Rigid3{turn, point - turn * point} * board;
     BoardView view = view_of(rig, 0, turned, options);
     view.stripes.clear();

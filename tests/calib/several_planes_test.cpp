@@ -12,7 +12,6 @@ namespace lightstripe {
 namespace {
 
 using Eigen::Vector3d;
-using testing::kDegree;
 using testing::observe;
 
 const testing::SessionOptions kPerfect{.poses = 12, .corner_noise_px = 0, .stripe_noise_px = 0};

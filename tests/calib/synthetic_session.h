@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <string>
 #include <vector>
 
@@ -17,8 +16,6 @@
 #include "core/random.h"
 
 namespace lightstripe::testing {
-
-inline constexpr double kDegree = std::numbers::pi / 180;
 
 struct SyntheticRig {
   Target target;

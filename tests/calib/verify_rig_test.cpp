@@ -11,7 +11,6 @@
 namespace lightstripe {
 namespace {
 
-using testing::kDegree;
 using testing::observe;
 using testing::rail_rig;
 

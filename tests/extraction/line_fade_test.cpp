@@ -45,12 +45,7 @@ TEST(LineFade, SigmaHoldsOverAnObliqueStain) {
   for (const double tangent : {-0.3, -0.2, 0.2, 0.3}) {
     scenes::Canvas canvas(300, 100, 5);
     canvas.add(scenes::make_line(-10, 50.3, 310, 50.3, 160, 2));
-    for (int y = 0; y < 100; ++y)
-      for (int x = 0; x < 300; ++x) {
-        const double beyond = (x - 150 + tangent * (y - 50.3)) / std::hypot(1, tangent);
-        const double share = 1 - 0.667 * 0.5 * std::erfc(-beyond / (0.8 * std::sqrt(2.0)));
-        canvas.grey(x, y) = 5 + (canvas.grey(x, y) - 5) * share;
-      }
+    canvas.darken_beyond({.x = 150, .y = 50.3, .normal_x = 1, .normal_y = tangent}, 0.667);
     ExtractionOptions options;
     options.sigma = 2;
     const auto r = extract_stripes(canvas.exposed(1, 0, 3).view(), options);

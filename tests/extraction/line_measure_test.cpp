@@ -59,11 +59,5 @@ TEST(LineMeasure, ClippedAndOneSidedProfilesAreFlagged) {
   EXPECT_NE(tail.points[60].flags & kStripeAsymmetric, 0);
 }
 
-TEST(LineMeasure, MedianOfNothingIsNought) {
-  std::vector<float> none, some = {5, 1, 3};
-  EXPECT_EQ(median_of(none), 0);
-  EXPECT_EQ(median_of(some), 3);
-}
-
 }  // namespace
 }  // namespace lightstripe

@@ -38,6 +38,12 @@ TEST(RankedValue, SortedValuesAreNoTrap) {
   EXPECT_EQ(ranked_median(values), 150.0F);
 }
 
+TEST(RankedValue, MedianOfNothingIsNought) {
+  std::vector<float> none, some = {5, 1, 3};
+  EXPECT_EQ(ranked_median(none), 0);
+  EXPECT_EQ(ranked_median(some), 3);
+}
+
 TEST(RankedValue, ARankBeyondTheValuesIsRefused) {
   std::vector<float> values(3, 1.0F);
   EXPECT_ANY_THROW(ranked_value(values, 3));

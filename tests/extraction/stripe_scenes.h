@@ -36,19 +36,32 @@ inline Curve make_line(double x0, double y0, double x1, double y1, double peak, 
   });
 }
 
+/// 1 far inside an edge, 0 far beyond it, 0.5 at it: the lens blurs it by 0.8 px.
+inline double lit_inside_edge(double inside) { return 0.5 * std::erfc(-inside / (0.8 * std::sqrt(2.0))); }
+
+/// A straight edge through (x, y); its outer side is where the normal, of any length, points to.
+struct Edge {
+  double x = 0, y = 0;
+  double normal_x = 1, normal_y = 0;
+
+  double beyond(double u, double v) const {
+    return ((u - x) * normal_x + (v - y) * normal_y) / std::hypot(normal_x, normal_y);
+  }
+};
+
 /// Grey values before noise: linear light, not clipped.
 struct Canvas {
   Image<double> grey;
+  double background;  ///< where nothing is drawn
 
-  Canvas(int width, int height, double background) : grey(width, height, background) {}
+  Canvas(int width, int height, double level) : grey(width, height, level), background(level) {}
 
   /// 1 inside a curve's ends, 0 beyond, 0.5 at them.
   static double lit(const Curve& curve, double x, double y) {
     const auto inside = [&](const CurvePoint& end, const CurvePoint& further_in) {
       const double dx = further_in.x - end.x, dy = further_in.y - end.y;
       if (std::hypot(x - end.x, y - end.y) > 30) return 1.0;
-      return 0.5 *
-             std::erfc(-((x - end.x) * dx + (y - end.y) * dy) / std::hypot(dx, dy) / (0.8 * std::sqrt(2.0)));
+      return lit_inside_edge(((x - end.x) * dx + (y - end.y) * dy) / std::hypot(dx, dy));
     };
     return inside(curve.front(), curve[1]) * inside(curve.back(), curve[curve.size() - 2]);
   }
@@ -79,6 +92,16 @@ struct Canvas {
         }
     }
     for (std::size_t i = 0; i < grey.pixels.size(); ++i) grey.pixels[i] += value.pixels[i];
+  }
+
+  /// Takes the share `lost` of all light over the background beyond the edge: 1 cuts stripes off, less is a
+  /// stain.
+  void darken_beyond(const Edge& edge, double lost = 1) {
+    for (int y = 0; y < grey.height; ++y)
+      for (int x = 0; x < grey.width; ++x) {
+        const double share = 1 - lost + lost * lit_inside_edge(-edge.beyond(x, y));
+        grey(x, y) = background + (grey(x, y) - background) * share;
+      }
   }
 
   /// A bright ellipse with soft edges (0.7 px).

@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 #include <vector>
 
 #include "core/random.h"
@@ -14,8 +13,6 @@ namespace lightstripe {
 namespace {
 
 using Eigen::Vector2d;
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 void add_line(std::vector<Vector2d>& out, const Vector2d& a, const Vector2d& b) {
   for (int i = 0; i < 400; ++i) out.push_back(a + i / 400.0 * (b - a));
