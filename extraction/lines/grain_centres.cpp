@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "core/robust.h"
-#include "extraction/lines/line_measure.h"
+#include "extraction/lines/ranked_value.h"
 #include "extraction/lines/row_crossing.h"
 
 namespace lightstripe {
@@ -78,7 +78,7 @@ double median_of_rows(GrainWorkspace& w, const Value& value) {
   w.values.clear();
   for (const auto& row : w.rows)
     if (row.usable) w.values.push_back(static_cast<float>(value(row)));
-  return median_of(w.values);
+  return ranked_median(w.values);
 }
 
 /// Centres by both kinds of weights. What a shift adds is the line's, not the single row's: a dark row would
