@@ -26,7 +26,7 @@ class CMakeBuild(build_ext):
         build = os.environ.get("LIGHTSTRIPE_BUILD")
         if build is None:
             build = str(pathlib.Path(self.build_temp).resolve())
-            subprocess.run(["cmake", "-G", "Ninja", "-S", SOURCE, "-B", build, "-DCMAKE_BUILD_TYPE=Release",
+            subprocess.run(["cmake", "-G", "Ninja", "-S", SOURCE, "-B", build, "-DCMAKE_BUILD_TYPE=Release", "-DLIGHTSTRIPE_UNITY=ON",
                             "-DLIGHTSTRIPE_APPS=OFF", "-DLIGHTSTRIPE_TESTS=OFF", "-DLIGHTSTRIPE_EXAMPLES=OFF",
                             f"-DPython_EXECUTABLE={sys.executable}"], check=True)
         subprocess.run(["cmake", "--build", build, "--target", "lightstripe_python"], check=True)
