@@ -18,6 +18,7 @@ constexpr double kMostNoise = 0.25;
 /// Light fainter than this is no Gaussian's foot any more, but glow and neighbours.
 constexpr double kLeastNoise = 0.05;
 constexpr double kLeastStripe = 1.0;  // px: a narrower one has too few pixels across for such weights
+constexpr double kSharpRadius = 20;   // sigma: below it a row is no cut across one straight stripe
 constexpr double kFarOut = 4;         // standard deviations of the rows' differences
 constexpr double kLeastSlope = 0.3;   // of the line's median
 constexpr float kNoCentre = std::numeric_limits<float>::quiet_NaN();
@@ -45,7 +46,7 @@ void sum_row(ImageView<T> image, const GrainWeights& weights, const StripePoint&
     for (std::size_t k = 0; k < 4; ++k) sums[k] += tap[k] * value;
   }
   const double sign = (c.is_row ? p.normal_x : p.normal_y) < 0 ? -1 : 1;
-  row = {sums[0], sums[1], sums[2], sums[3], sign, c, 0, 0, true};
+  row = {sums[0], sums[1], sums[2], sums[3], sign, c, 0, 0, true, false};
 }
 
 /// Weights of a Gaussian along the line, one side, their whole sum 1.
@@ -112,7 +113,7 @@ double find_moves(GrainWorkspace& w, std::vector<float>& offsets) {
     const auto& row = w.rows[i];
     w.moves.push_back({along_line(w, i, [](const auto& r) { return static_cast<double>(r.difference); }),
                        along_line(w, i, [](const auto&) { return 1.0; })});
-    if (!row.usable) {
+    if (!row.usable || !row.tells_scatter) {
       offsets.push_back(kNoCentre);
       continue;
     }
@@ -198,8 +199,9 @@ bool recentre_in_grain(ImageView<T> image, const DerivativeKernels& kernels, con
   for (std::size_t i = 0; i < range.size(); ++i) {
     const StripePoint& p = lines.points[range.begin + i];
     if ((p.flags & (kStripeBridged | kStripeSaturated)) == 0 && p.strength > 0 &&
-        !bends_at(lines, range, range.begin + i, kernels.sigma))
+        !bends_at(lines, range, range.begin + i, kernels.sigma, kSharpRadius))
       sum_row(image, weights, p, w.rows[i]);
+    w.rows[i].tells_scatter = w.rows[i].usable && !bends_at(lines, range, range.begin + i, kernels.sigma);
   }
   const double step = length_of(lines, range) / static_cast<double>(range.size() - 1);
   make_along(kernels.sigma / std::max(step, 0.5), w.along);

@@ -44,6 +44,7 @@ struct GrainWorkspace {
     float centre = 0;      ///< px across the line, by the weights of least variance
     float difference = 0;  ///< less that by the line's own kernels
     bool usable = false;
+    bool tells_scatter = false;  ///< the line is straight enough there
   };
   struct Move {
     double across = 0;  ///< px
@@ -55,8 +56,8 @@ struct GrainWorkspace {
 };
 
 /// Moves the points of one line by what the rows' centres differ by the two kinds of weights, averaged along
-/// the line as the kernels do; rows in bends, beside the picture's border and far out of the others do not
-/// count. `differences`: of the line's rows; they and `lines.recentred` become those of the moved line.
+/// the line as the kernels do; rows in sharp bends, beside the picture's border and far out of the others do
+/// not count. `differences`: of the line's rows; they and `lines.recentred` become those of the moved line.
 /// False, and nothing changes, where the rows do not agree better by the new weights.
 template <class T>
 bool recentre_in_grain(ImageView<T> image, const DerivativeKernels& kernels, const CommonScatter& common,

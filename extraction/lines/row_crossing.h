@@ -28,16 +28,19 @@ inline RowCrossing row_crossing_at(const StripePoint& p) {
   return {is_row, index, centre - (index - place) * along / across, std::abs(across)};
 }
 
-/// Whether the line bends too much around a point for its rows to be told from its shape: a radius below 40
-/// sigma, by the points 8 sigma away to both sides.
-inline bool bends_at(const LineSet& lines, const LineRange& r, std::size_t i, double sigma) {
+/// Below this radius, in sigma, a line bends too much for the scatter of its rows to be told from its shape.
+inline constexpr double kStraightRadius = 40;
+
+/// Whether the line's radius around a point is below so many sigma, by the points 8 sigma away to both sides.
+inline bool bends_at(const LineSet& lines, const LineRange& r, std::size_t i, double sigma,
+                     double radius_in_sigma = kStraightRadius) {
   const auto reach = std::min(static_cast<std::size_t>(8 * sigma), (r.size() - 1) / 2);
   const std::size_t middle = std::clamp(i, r.begin + reach, r.end - 1 - reach);
   const StripePoint &a = lines.points[middle - reach], &b = lines.points[middle],
                     &c = lines.points[middle + reach];
   const double along_x = c.x - a.x, along_y = c.y - a.y, square = along_x * along_x + along_y * along_y;
-  // 8 * sagitta * 40 sigma > chord^2, all of it squared: the sagitta is this product over the chord.
-  const double product = 8 * 40 * sigma * ((b.x - a.x) * along_y - (b.y - a.y) * along_x);
+  // 8 * sagitta * radius > chord^2, all of it squared: the sagitta is this product over the chord.
+  const double product = 8 * radius_in_sigma * sigma * ((b.x - a.x) * along_y - (b.y - a.y) * along_x);
   return product * product > square * square * square;
 }
 
