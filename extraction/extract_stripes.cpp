@@ -24,6 +24,7 @@
 #include "extraction/lines/line_measure.h"
 #include "extraction/lines/line_noise.h"
 #include "extraction/lines/line_set.h"
+#include "extraction/lines/line_spots.h"
 #include "extraction/lines/ranked_value.h"
 #include "extraction/lines/smoothing.h"
 #include "extraction/parsed_options.h"
@@ -236,6 +237,7 @@ void finish_lines(const Run<T>& run, ScaleGroup& group) {
   }
   if (run.options.curvature_correction && has_ridges(run.options.method))
     correct_curvature_bias(kernels, group.lines, w.bends);
+  find_spot_errors(group.lines, w.values);
   if (run.options.smoothing) smooth_along_lines(group.lines, w.smoothing);
   add_systematic_errors(group.lines);
   // Last: neither bends nor smoothing may take a bias for scatter.

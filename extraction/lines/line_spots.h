@@ -1,0 +1,18 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+// How far a line's centre may be off where a clipped bright spot lies on it (a reflection, a spark): where
+// the line runs within the white is not to be seen.
+#pragma once
+
+#include <vector>
+
+#include "extraction/lines/line_set.h"
+
+namespace lightstripe {
+
+/// Adds to `lines.systematic`, after the ends are mended: over a stretch that is wider than its line and clipped, while
+/// the line itself is not, the centre may lie anywhere in what the stretch is wider by; 1 sigma is that over
+/// sqrt(12). `values` is scratch memory.
+void find_spot_errors(LineSet& lines, std::vector<float>& values);
+
+}  // namespace lightstripe

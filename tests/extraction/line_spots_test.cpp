@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: 2026 The lightstripe authors
+// SPDX-License-Identifier: Apache-2.0
+#include "extraction/lines/line_spots.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "extraction/extract_stripes.h"
+#include "stripe_scenes.h"
+
+namespace lightstripe {
+namespace {
+
+/// 200 points, 5 px wide; from 100 to 109 12 px.
+LineSet spotted_line() {
+  LineSet lines;
+  for (int i = 0; i < 200; ++i) {
+    StripePoint& p = lines.points.emplace_back();
+    p.x = i, p.normal_y = 1, p.width = i >= 100 && i < 110 ? 12 : 5;
+  }
+  lines.lines.push_back({0, 200});
+  lines.systematic.assign(200, 0.0F);
+  return lines;
+}
+
+TEST(LineSpots, CountWhatTheyAreWiderByWhereTheyAreClipped) {
+  std::vector<float> scratch;
+  LineSet lines = spotted_line();
+  find_spot_errors(lines, scratch);
+  for (const float error : lines.systematic) EXPECT_EQ(error, 0);  // wide, but not clipped: the line is so
+  lines.points[104].flags = kStripeSaturated;
+  lines.systematic[105] = 1;
+  find_spot_errors(lines, scratch);
+  EXPECT_NEAR(lines.systematic[100], 7 / std::sqrt(12.0), 1e-5);
+  EXPECT_NEAR(lines.systematic[105], std::hypot(1, 7 / std::sqrt(12.0)), 1e-5);
+  EXPECT_EQ(lines.systematic[99], 0);
+  EXPECT_EQ(lines.systematic[110], 0);
+}
+
+TEST(LineSpots, ALineThatIsClippedItselfHasNone) {
+  std::vector<float> scratch;
+  LineSet lines = spotted_line();
+  for (std::size_t i = 0; i < 200; ++i) lines.points[i].flags = i % 3 == 0 ? 0 : kStripeSaturated;
+  find_spot_errors(lines, scratch);
+  for (const float error : lines.systematic) EXPECT_EQ(error, 0);
+}
+
+/// A reflection beside a line, where it ends: the line seems to run into it.
+TEST(LineSpots, SigmaHoldsInAReflection) {
+  scenes::Canvas canvas(300, 200, 8);
+  const scenes::Curve curve = scenes::make_curve([](double u) {
+    return scenes::CurvePoint{20 + 260 * u, 60 + 0.0012 * std::pow(std::max(0.0, 260 * u - 130), 2), 120,
+                              1.6};
+  });
+  canvas.add(curve);
+  canvas.add_blob(198, 62, 8, 7, 0, 800);
+  double surprise = 0, worst = 0;
+  for (const Stripe& s : extract_stripes(canvas.exposed(1.5, 0, 2).view()).stripes)
+    for (const StripePoint& p : s.points) {
+      if ((p.flags & kStripeBridged) != 0) continue;
+      const double error = scenes::distance_to({curve}, p.x, p.y);
+      worst = std::max(worst, error);
+      surprise = std::max(surprise, error / p.sigma_px);
+    }
+  EXPECT_GT(worst, 0.3);
+  EXPECT_LT(surprise, 6);
+}
+
+}  // namespace
+}  // namespace lightstripe
