@@ -10,9 +10,9 @@
 
 namespace lightstripe {
 
-/// Adds to `lines.systematic`, after the ends are mended: over a stretch that is wider than its line and clipped, while
-/// the line itself is not, the centre may lie anywhere in what the stretch is wider by; 1 sigma is that over
-/// sqrt(12). `values` is scratch memory.
+/// Adds to `lines.systematic`, after the ends are mended: over a stretch that is wider than its line and
+/// clipped, while the line itself is not, the centre may lie anywhere in what the stretch is wider by; 1
+/// sigma is that over sqrt(12). `values` is scratch memory.
 void find_spot_errors(LineSet& lines, std::vector<float>& values);
 
 }  // namespace lightstripe

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/random.h"
+#include "core/transform.h"
 
 namespace lightstripe {
 namespace {
