@@ -36,7 +36,7 @@ int main(int argc, char** argv) {
   std::printf("%zu line%s\n", result.stripes.size(), result.stripes.size() == 1 ? "" : "s");
   for (const lightstripe::Stripe& stripe : result.stripes) {
     const lightstripe::StripePoint& first = stripe.points.front();
-    std::printf("%zu points, the first at x = %.0f, y = %.2f px +- %.3f px\n", stripe.points.size(), first.x,
+    std::printf("%zu points, the first at x = %.2f, y = %.2f px +- %.3f px\n", stripe.points.size(), first.x,
                 first.y, first.sigma_px);
   }
 }
