@@ -22,6 +22,17 @@ double weight_of(const PlacedSection& placed, const Vector2d& point) {
   return placed.section[static_cast<std::size_t>(&point - placed.points.data())].weight;
 }
 
+/// Points that a fit takes, by their place along it, and their predicted errors.
+struct SeenPoints {
+  std::vector<Sample1> samples;
+  std::vector<double> sigmas_mm;
+
+  void add(const PlacedSection& placed, const Vector2d& point, double t, double value) {
+    samples.push_back({t, value, weight_of(placed, point)});
+    sigmas_mm.push_back(placed.section[static_cast<std::size_t>(&point - placed.points.data())].sigma_mm);
+  }
+};
+
 /// A coordinate of the section with its 1-sigma error, or why it is not known.
 struct Place {
   std::string reason;  ///< empty: known
@@ -33,23 +44,24 @@ struct Place {
 Place unseen(const std::string& what) { return {what + " not seen"}; }
 
 /// 1-sigma of a fit's value at `t`: of what its points err by, each by itself and together with its
-/// neighbours, and, where they scatter clearly more here than the section's points elsewhere, by that.
-double sigma_at(const PolynomialFit& fit, const std::vector<Sample1>& samples, int degree, double t,
-                const ErrorAlong& error) {
+/// neighbours, as they predict it here, and, where they scatter clearly more than that, by that.
+double sigma_at(const PolynomialFit& fit, const SeenPoints& seen, int degree, double t,
+                const Registration& registration) {
   const double slope = fit.slope + fit.curvature * t, steep = std::hypot(1, slope);
   std::vector<double> places;
-  for (const Sample1& s : samples) places.push_back(steep * s.t);
+  for (const Sample1& s : seen.samples) places.push_back(steep * s.t);
   const double here = std::max(fit.rms / steep, kMinScaleMm);
+  const ErrorAlong error = as_predicted_here(registration, usual_prediction(seen.sigmas_mm));
   return steep * sigma_of_sum(where_points_scatter(error, here, fit.num_samples), places,
-                              influences(samples, fit, degree, t));
+                              influences(seen.samples, fit, degree, t));
 }
 
 /// The samples' polynomial at `t`, over `from`.
-Place place_from(const std::vector<Sample1>& samples, int degree, double from, double per_turn,
+Place place_from(const SeenPoints& seen, int degree, double from, double per_turn,
                  const PlacedSection& placed, const std::string& what) {
-  const auto fit = fit_polynomial(samples, degree, kMinScaleMm);
+  const auto fit = fit_polynomial(seen.samples, degree, kMinScaleMm);
   if (!fit) return unseen(what);
-  return {"", from + fit->value, sigma_at(*fit, samples, degree, 0, placed.registration.error), per_turn};
+  return {"", from + fit->value, sigma_at(*fit, seen, degree, 0, placed.registration), per_turn};
 }
 
 double mean_of_places(const std::vector<Sample1>& samples) {
@@ -62,12 +74,12 @@ double mean_of_places(const std::vector<Sample1>& samples) {
 Place find_back(const PlacedSection& placed, const WheelSectionKind& kind) {
   constexpr double kBackU = -70, kNearMm = 3, kFewest = 8;
   if (kind.back_is_given) return {"", kBackU};
-  std::vector<Sample1> back;
+  SeenPoints back;
   for (const Vector2d& p : placed.points)
     if (std::abs(p.x() - kBackU) < kNearMm && p.y() < placed.reference.top_v() - 19.5 && p.y() > -40)
-      back.push_back({p.y(), p.x() - kBackU, weight_of(placed, p)});
-  if (static_cast<double>(back.size()) >= kFewest) {
-    Place seen = place_from(back, 0, kBackU, -mean_of_places(back), placed, "back");
+      back.add(placed, p, p.y(), p.x() - kBackU);
+  if (static_cast<double>(back.samples.size()) >= kFewest) {
+    Place seen = place_from(back, 0, kBackU, -mean_of_places(back.samples), placed, "back");
     if (seen.known()) return seen;
   }
   return {"", kBackU, placed.registration.sigma_of({kBackU, 0}, {1, 0})};
@@ -75,15 +87,15 @@ Place find_back(const PlacedSection& placed, const WheelSectionKind& kind) {
 
 Place tread_height(const PlacedSection& placed, double u) {
   constexpr double kHalfWidthMm = 4, kDeepMm = 20;
-  std::vector<Sample1> samples;
+  SeenPoints seen;
   bool left = false, right = false;
   for (const Vector2d& p : placed.points)
     if (std::abs(p.x() - u) < kHalfWidthMm && std::abs(p.y()) < kDeepMm) {
-      samples.push_back({p.x() - u, p.y(), weight_of(placed, p)});
+      seen.add(placed, p, p.x() - u, p.y());
       (p.x() < u ? left : right) = true;
     }
   if (!left || !right) return unseen("tread at the datum");
-  return place_from(samples, 2, 0, u, placed, "tread at the datum");
+  return place_from(seen, 2, 0, u, placed, "tread at the datum");
 }
 
 struct Tip {
@@ -100,23 +112,23 @@ Tip find_tip_itself(const PlacedSection& placed) {
         (!highest || p.y() > highest->y()))
       highest = &p;
   if (!highest) return {unseen("flange tip"), 0};
-  std::vector<Sample1> samples;
+  SeenPoints seen;
   for (const Vector2d& p : placed.points)
     if (std::abs(p.x() - highest->x()) < kHalfWidthMm && highest->y() - p.y() < 2)
-      samples.push_back({p.x() - highest->x(), p.y() - highest->y(), weight_of(placed, p)});
-  const auto fit = fit_polynomial(samples, 2, kMinScaleMm);
+      seen.add(placed, p, p.x() - highest->x(), p.y() - highest->y());
+  const auto fit = fit_polynomial(seen.samples, 2, kMinScaleMm);
   if (!fit || fit->curvature >= 0) return {unseen("flange tip"), 0};
   const double vertex = -fit->slope / fit->curvature;
   // The top lies between points on its either side, else the section ends before it.
   constexpr double kBesideMm = 0.5;
   const auto left = [&](const Sample1& s) { return s.t < vertex - kBesideMm; };
   const auto right = [&](const Sample1& s) { return s.t > vertex + kBesideMm; };
-  if (std::count_if(samples.begin(), samples.end(), left) < 2 ||
-      std::count_if(samples.begin(), samples.end(), right) < 2)
+  if (std::count_if(seen.samples.begin(), seen.samples.end(), left) < 2 ||
+      std::count_if(seen.samples.begin(), seen.samples.end(), right) < 2)
     return {unseen("flange tip"), 0};
   const double height =
       highest->y() + fit->value + fit->slope * vertex + fit->curvature * vertex * vertex / 2;
-  const double sigma = sigma_at(*fit, samples, 2, vertex, placed.registration.error);
+  const double sigma = sigma_at(*fit, seen, 2, vertex, placed.registration);
   return {{"", height, sigma, highest->x() + vertex}, highest->x() + vertex};
 }
 
@@ -153,16 +165,16 @@ Tip find_tip(const PlacedSection& placed) {
 Place face_itself(const PlacedSection& placed, double v, double half_height_mm, double tip_u,
                   const std::string& what) {
   constexpr double kWidestMm = 30;
-  std::vector<Sample1> samples;
+  SeenPoints seen;
   bool above = false, below = false;
   for (const Vector2d& p : placed.points)
     if (p.x() > tip_u && p.x() < tip_u + kWidestMm && std::abs(p.y() - v) < half_height_mm) {
-      samples.push_back({p.y() - v, p.x() - tip_u, weight_of(placed, p)});
+      seen.add(placed, p, p.y() - v, p.x() - tip_u);
       (p.y() < v ? below : above) = true;
     }
   if (!above || !below) return unseen(what);
-  const int degree = samples.size() >= 6 ? 2 : 1;
-  return place_from(samples, degree, tip_u, -v, placed, what);
+  const int degree = seen.samples.size() >= 6 ? 2 : 1;
+  return place_from(seen, degree, tip_u, -v, placed, what);
 }
 
 /// The same at the height of a place, whose error shifts it along the face.
@@ -204,18 +216,18 @@ Place strip_height(const PlacedSection& placed, double u, double half_width_mm) 
 Place extremum_near(const PlacedSection& placed, const Place& strip) {
   constexpr double kHalfWidthMm = 4, kFarthestMm = 2;
   const double u = strip.per_turn;
-  std::vector<Sample1> samples;
+  SeenPoints seen;
   for (std::size_t i = 0; i < placed.points.size(); ++i) {
     const Vector2d arm = placed.points[i] - Vector2d(u, strip.value);
     if (std::abs(arm.x()) < kHalfWidthMm && std::abs(arm.y()) < kHalfWidthMm)
-      samples.push_back({arm.x(), arm.y(), placed.section[i].weight});
+      seen.add(placed, placed.points[i], arm.x(), arm.y());
   }
-  const auto fit = fit_polynomial(samples, 2, kMinScaleMm);
+  const auto fit = fit_polynomial(seen.samples, 2, kMinScaleMm);
   if (!fit || fit->curvature == 0) return strip;
   const double at = -fit->slope / fit->curvature;
   if (std::abs(at) > kFarthestMm) return strip;
   return {"", strip.value + fit->value + fit->slope * at / 2,
-          sigma_at(*fit, samples, 2, at, placed.registration.error), u + at};
+          sigma_at(*fit, seen, 2, at, placed.registration), u + at};
 }
 
 /// How far the tread lies below its highest point on the field side, which medians of strips find.
@@ -238,16 +250,16 @@ Estimate hollow_of(const PlacedSection& placed) {
 
 Estimate rim_width(const PlacedSection& placed, const Place& back) {
   constexpr double kNarrowestU = 55, kWidestU = 80, kBelowChamferMm = 9, kFewest = 8, kUprightMm = 0.3;
-  std::vector<Sample1> outer;
+  SeenPoints outer;
   for (const Vector2d& p : placed.points)
     if (p.x() > kNarrowestU && p.x() < kWidestU && p.y() < -kBelowChamferMm && p.y() > -50)
-      outer.push_back({p.y() + 20, p.x()});
-  if (static_cast<double>(outer.size()) < kFewest) return Estimate::unknown("outer face not seen");
-  const auto fit = fit_polynomial(outer, 0, kMinScaleMm);
+      outer.add(placed, p, p.y() + 20, p.x());
+  if (static_cast<double>(outer.samples.size()) < kFewest) return Estimate::unknown("outer face not seen");
+  const auto fit = fit_polynomial(outer.samples, 0, kMinScaleMm);
   // What bends away is the rounded rim, no face.
   if (!fit || fit->rms > kUprightMm) return Estimate::unknown("outer face not seen");
-  for (Sample1& s : outer) s.t -= 20;
-  const Place face = place_from(outer, 0, 0, -mean_of_places(outer), placed, "outer face");
+  for (Sample1& s : outer.samples) s.t -= 20;
+  const Place face = place_from(outer, 0, 0, -mean_of_places(outer.samples), placed, "outer face");
   return difference(face, back, placed.registration);
 }
 

@@ -47,12 +47,15 @@ double predicted_error(const PlacedSection& placed, const SurfaceProbe& probe) {
         std::abs(arm.dot(probe.outwards)) <= probe.reach_mm)
       sigmas.push_back(placed.section[i].sigma_mm);
   }
-  if (sigmas.empty()) return 0;
-  return value_at_rank(sigmas, sigmas.size() / 4);
+  return usual_prediction(std::move(sigmas));
 }
 
-/// The error of points whose own predicted one is not that of the points that the registration rests on: a
-/// face that a sensor looks straight at is better known than the web that it sees at a glance.
+}  // namespace
+
+double usual_prediction(std::vector<double> sigmas_mm) {
+  return sigmas_mm.empty() ? 0.0 : value_at_rank(sigmas_mm, sigmas_mm.size() / 4);
+}
+
 ErrorAlong as_predicted_here(const Registration& registration, double predicted_mm) {
   constexpr double kWorst = 2;
   ErrorAlong error = registration.error;
@@ -61,8 +64,6 @@ ErrorAlong as_predicted_here(const Registration& registration, double predicted_
   error.own_mm *= scale, error.shared_mm *= scale;
   return error;
 }
-
-}  // namespace
 
 PlacedSection place(const Section& section, const ReferenceShape& reference,
                     const Registration& registration) {

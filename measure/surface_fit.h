@@ -21,6 +21,14 @@ struct PlacedSection {
 PlacedSection place(const Section& section, const ReferenceShape& reference,
                     const Registration& registration);
 
+/// Of the predicted errors of points at one place, mm: that of the better ones; 0 for none.
+double usual_prediction(std::vector<double> sigmas_mm);
+
+/// The error of points whose own predicted one is not that of the points that the registration rests on: a
+/// face that a sensor looks straight at is better known than the web that it sees at a glance, a bend in
+/// grain less well than what is straight.
+ErrorAlong as_predicted_here(const Registration& registration, double predicted_mm);
+
 /// Where to look: from `origin` along `outwards` (unit), at the points that lie between `from_mm` and `to_mm`
 /// across it (+ to its left) and within `reach_mm` along it.
 struct SurfaceProbe {

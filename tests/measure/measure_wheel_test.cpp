@@ -7,6 +7,7 @@
 #include <functional>
 #include <map>
 
+#include "core/random.h"
 #include "io/nominal_outlines.h"
 #include "sections.h"
 #include "simulate/worn_wheel.h"
@@ -169,6 +170,31 @@ TEST_F(MeasureWheel, SigmasAreWhatTheQuantitiesScatterByAlsoOnBentStripes) {
       EXPECT_GT(ratios.at(name), 0.72) << name << ", bent over " << recipe.bend_length_mm;
       EXPECT_LT(ratios.at(name), 1.25) << name << ", bent over " << recipe.bend_length_mm;
     }
+  }
+}
+
+// A bend in grain is less well known than what is straight: the flange's points scatter by twice the others'
+// noise, and say so.
+TEST_F(MeasureWheel, SigmasFollowWhatThePointsOfAPlaceAreSaidToErrBy) {
+  constexpr double kNoiseMm = 0.02, kOfFlangeMm = 0.04;
+  const auto ratios = scatter_over_sigma(
+      [&](std::uint64_t seed) {
+        Section section =
+            wheel_section(nominal, -30, {.spacing_mm = 0.25, .noise_mm = kNoiseMm, .seed = seed});
+        Random random(seed + 1000);
+        for (SectionPoint& p : section) {
+          const bool on_flange = p.position.y() > 5;
+          p.sigma_mm = on_flange ? kOfFlangeMm : kNoiseMm;
+          const double more = std::sqrt(kOfFlangeMm * kOfFlangeMm - kNoiseMm * kNoiseMm);
+          if (on_flange) p.position += more * Eigen::Vector2d(random.gaussian(), random.gaussian());
+        }
+        return measured(section);
+      },
+      150);
+  // 0.68: the height's error is that of the section's points together, which the flange's raise already.
+  for (const std::string name : {"flange_height", "flange_thickness", "qr"}) {
+    EXPECT_GT(ratios.at(name), 0.6) << name;
+    EXPECT_LT(ratios.at(name), 1.15) << name;
   }
 }
 
