@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "io/atomic_file.h"
+#include "pipeline/measure_input.h"
 
 namespace lightstripe {
 
