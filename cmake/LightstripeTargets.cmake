@@ -25,8 +25,8 @@ if(LIGHTSTRIPE_FUZZ)
 endif()
 
 # More than half of a first build is reading the headers of Eigen, OpenCV and the standard library again and again. Two ways
-# out: many files as one unit (the least work, for who builds once), or precompiled headers (for who edits a file and builds
-# again). With ccache neither: it keeps single files, and gcc's precompiled headers do not go together with it.
+# out: a library as one unit (the least work, for who builds once), or precompiled headers (for who edits a file and builds
+# again). gcc's precompiled headers do not go together with ccache.
 option(LIGHTSTRIPE_UNITY "compile each library as one file: a first build in a third of the time" OFF)
 if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   set(precompile_by_default ON)

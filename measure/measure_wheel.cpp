@@ -17,9 +17,9 @@ namespace {
 
 using Eigen::Vector2d;
 
-/// Weight of `point`, which must be an element of placed.points.
-double weight_of(const PlacedSection& placed, const Vector2d& point) {
-  return placed.section[static_cast<std::size_t>(&point - placed.points.data())].weight;
+/// What the section says of `point`, which must be an element of placed.points.
+const SectionPoint& unplaced(const PlacedSection& placed, const Vector2d& point) {
+  return placed.section[static_cast<std::size_t>(&point - placed.points.data())];
 }
 
 /// Points that a fit takes, by their place along it, and their predicted errors.
@@ -28,8 +28,9 @@ struct SeenPoints {
   std::vector<double> sigmas_mm;
 
   void add(const PlacedSection& placed, const Vector2d& point, double t, double value) {
-    samples.push_back({t, value, weight_of(placed, point)});
-    sigmas_mm.push_back(placed.section[static_cast<std::size_t>(&point - placed.points.data())].sigma_mm);
+    const SectionPoint& seen = unplaced(placed, point);
+    samples.push_back({t, value, seen.weight});
+    sigmas_mm.push_back(seen.sigma_mm);
   }
 };
 
@@ -136,7 +137,7 @@ Tip find_tip_itself(const PlacedSection& placed) {
 bool well_seen(const PlacedSection& placed, const Vector2d& place) {
   constexpr double kAboutMm = 1.6, kGood = 0.5;
   return std::any_of(placed.points.begin(), placed.points.end(), [&](const Vector2d& p) {
-    return (p - place).norm() < kAboutMm && weight_of(placed, p) > kGood;
+    return (p - place).norm() < kAboutMm && unplaced(placed, p).weight > kGood;
   });
 }
 

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "core/robust.h"
+#include "extraction/kernels/width_rule.h"
 #include "extraction/lines/ranked_value.h"
 #include "extraction/lines/row_crossing.h"
 
@@ -46,7 +47,13 @@ void sum_row(ImageView<T> image, const GrainWeights& weights, const StripePoint&
     for (std::size_t k = 0; k < 4; ++k) sums[k] += tap[k] * value;
   }
   const double sign = (c.is_row ? p.normal_x : p.normal_y) < 0 ? -1 : 1;
-  row = {sums[0], sums[1], sums[2], sums[3], sign, c, 0, 0, true, false};
+  row = {.shift = sums[0],
+         .slope = sums[1],
+         .old_shift = sums[2],
+         .old_slope = sums[3],
+         .sign = sign,
+         .at = c,
+         .usable = true};
 }
 
 /// Weights of a Gaussian along the line, one side, their whole sum 1.
@@ -105,27 +112,19 @@ void find_centres(GrainWorkspace& w) {
 
 /// How far each point moves, and the rows' centres against the moved line. Returns the rows' mean cosine.
 double find_moves(GrainWorkspace& w, std::vector<float>& offsets) {
-  double cosines = 0, used = 0;
-  RowCrossing last;
-  offsets.clear();
+  RowOffsets seen(offsets);
   w.moves.clear();
   for (std::size_t i = 0; i < w.rows.size(); ++i) {
     const auto& row = w.rows[i];
     w.moves.push_back({along_line(w, i, [](const auto& r) { return static_cast<double>(r.difference); }),
                        along_line(w, i, [](const auto&) { return 1.0; })});
     if (!row.usable || !row.tells_scatter) {
-      offsets.push_back(kNoCentre);
+      seen.skip();
       continue;
     }
-    if (row.at.is_row == last.is_row && row.at.index == last.index) continue;  // two points in one row
-    if (row.at.is_row != last.is_row || std::abs(row.at.index - last.index) != 1)
-      offsets.push_back(kNoCentre);
-    offsets.push_back(row.centre - static_cast<float>(w.moves.back().across));
-    cosines += row.at.cosine;
-    used += 1;
-    last = row.at;
+    if (!seen.has(row.at)) seen.add(row.at, row.centre - static_cast<float>(w.moves.back().across));
   }
-  return used > 0 ? cosines / used : 1;
+  return seen.mean_cosine();
 }
 
 /// Whether the rows agree better by the new weights, and no more than by scatter differ from the old: a
@@ -191,17 +190,18 @@ bool recentre_in_grain(ImageView<T> image, const DerivativeKernels& kernels, con
                        RowScatterWorkspace& rows) {
   if (range.size() < 2 || differences.rows == 0) return false;
   const RowScatter scatter = fit_scatter(differences, common);
-  const double stripe = lines.points[range.begin + range.size() / 2].width * 0.2886751346;  // 2 sqrt(3) s
+  const double stripe = sigma_of_full_width(lines.points[range.begin + range.size() / 2].width);
   const auto noise = noise_over_grain(scatter, stripe, kernels.sigma);
   if (!noise || stripe < kLeastStripe) return false;
   const GrainWeights weights = make_grain_weights(stripe, kernels, *noise);
   w.rows.assign(range.size(), {});
   for (std::size_t i = 0; i < range.size(); ++i) {
     const StripePoint& p = lines.points[range.begin + i];
-    if ((p.flags & (kStripeBridged | kStripeSaturated)) == 0 && p.strength > 0 &&
-        !bends_at(lines, range, range.begin + i, kernels.sigma, kSharpRadius))
+    if ((p.flags & (kStripeBridged | kStripeSaturated)) != 0 || !(p.strength > 0)) continue;
+    const bool straight = !bends_at(lines, range, range.begin + i, kernels.sigma);
+    if (straight || !bends_at(lines, range, range.begin + i, kernels.sigma, kSharpRadius))
       sum_row(image, weights, p, w.rows[i]);
-    w.rows[i].tells_scatter = w.rows[i].usable && !bends_at(lines, range, range.begin + i, kernels.sigma);
+    w.rows[i].tells_scatter = w.rows[i].usable && straight;
   }
   const double step = length_of(lines, range) / static_cast<double>(range.size() - 1);
   make_along(kernels.sigma / std::max(step, 0.5), w.along);

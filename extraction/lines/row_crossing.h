@@ -1,11 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The lightstripe authors
 // SPDX-License-Identifier: Apache-2.0
-// The row or column of the image that crosses a line at one of its points.
+// The row or column of the image that crosses a line at one of its points, and where rows see the line.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdlib>
+#include <limits>
+#include <vector>
 
 #include "extraction/follow/direction_guided_ridge.h"
 #include "extraction/lines/line_set.h"
@@ -43,5 +46,31 @@ inline bool bends_at(const LineSet& lines, const LineRange& r, std::size_t i, do
   const double product = 8 * radius_in_sigma * sigma * ((b.x - a.x) * along_y - (b.y - a.y) * along_x);
   return product * product > square * square * square;
 }
+
+/// Offsets of a line's rows in order, px across it, as differences_of_rows() takes them: NaN where one row
+/// does not follow the other.
+class RowOffsets {
+ public:
+  /// `offsets`: what is filled.
+  explicit RowOffsets(std::vector<float>& offsets) : offsets_(offsets) { offsets_.clear(); }
+
+  void skip() { offsets_.push_back(kGap); }
+  /// Whether the row was added last: two points may lie in one.
+  bool has(const RowCrossing& c) const { return c.is_row == last_.is_row && c.index == last_.index; }
+  void add(const RowCrossing& c, float offset) {
+    if (c.is_row != last_.is_row || std::abs(c.index - last_.index) != 1) skip();
+    offsets_.push_back(offset);
+    cosines_ += c.cosine;
+    used_ += 1;
+    last_ = c;
+  }
+  double mean_cosine() const { return used_ > 0 ? cosines_ / used_ : 1; }
+
+ private:
+  static constexpr float kGap = std::numeric_limits<float>::quiet_NaN();
+  std::vector<float>& offsets_;
+  RowCrossing last_;
+  double cosines_ = 0, used_ = 0;
+};
 
 }  // namespace lightstripe

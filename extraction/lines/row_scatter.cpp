@@ -24,7 +24,6 @@ constexpr double kCommonRows = 100;
 /// A mean square over n rows scatters by some 1.7 / sqrt(n) of itself: misfits of six lags, times n, that
 /// differ by less than this are equally good. Rows count as independent unless they clearly are not.
 constexpr double kTolerance = 1, kToleranceOfWhite = 25, kToleranceOfAnother = 3;  // of another line
-constexpr float kGap = std::numeric_limits<float>::quiet_NaN();
 
 /// A row that crosses a line obliquely looks at it across with a scale smaller by the cosine.
 struct ObliqueView {
@@ -71,28 +70,22 @@ double row_offset(ImageView<T> image, const DerivativeKernels& kernels, const Ro
 template <class T>
 double collect_offsets(ImageView<T> image, const DerivativeKernels& kernels, const LineSet& lines,
                        const LineRange& r, const ObliqueView& view, std::vector<float>& offsets) {
-  offsets.clear();
-  RowCrossing last{};
-  double cosines = 0, used = 0;
+  RowOffsets rows(offsets);
   for (std::size_t i = r.begin; i < r.end; ++i) {
     const StripePoint& p = lines.points[i];
     const RowCrossing c = row_crossing_at(p);
     const bool outside = c.index < 0 || c.index >= (c.is_row ? image.height : image.width);
     const bool usable = (p.flags & kStripeBridged) == 0 && p.strength > 0 && !outside;
     if (!usable || bends_at(lines, r, i, kernels.sigma)) {
-      offsets.push_back(kGap);
+      rows.skip();
       continue;
     }
-    if (c.is_row == last.is_row && c.index == last.index) continue;  // two points in one row
-    if (c.is_row != last.is_row || std::abs(c.index - last.index) != 1) offsets.push_back(kGap);
+    if (rows.has(c)) continue;
     const double sharper = view.sharper(c.cosine);
     const double offset = row_offset(image, kernels, c, p.strength * sharper);
-    offsets.push_back(static_cast<float>(c.cosine * offset * error_in_speckle(c.cosine, sharper)));
-    cosines += c.cosine;
-    used += 1;
-    last = c;
+    rows.add(c, static_cast<float>(c.cosine * offset * error_in_speckle(c.cosine, sharper)));
   }
-  return used > 0 ? cosines / used : 1;
+  return rows.mean_cosine();
 }
 
 void find_runs(const std::vector<float>& offsets, std::vector<RowScatterWorkspace::Run>& runs) {

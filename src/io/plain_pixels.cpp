@@ -13,6 +13,7 @@
 
 #include "io/byte_reader.h"
 #include "io/image_header.h"
+#include "io/tiff_tags.h"
 
 namespace lightstripe {
 namespace {
@@ -108,8 +109,8 @@ class TiffDirectory {
 
   bool take(std::uint64_t at, TiffFacts& facts) {
     const std::uint64_t tag = in_.u16(at);
-    const std::array<std::pair<std::uint64_t, std::uint64_t*>, 9> kNumbers = {{{256, &facts.width},
-                                                                               {257, &facts.height},
+    const std::array<std::pair<std::uint64_t, std::uint64_t*>, 9> kNumbers = {{{kTiffWidth, &facts.width},
+                                                                               {kTiffHeight, &facts.height},
                                                                                {258, &facts.bits},
                                                                                {259, &facts.compression},
                                                                                {262, &facts.photometric},
@@ -117,9 +118,9 @@ class TiffDirectory {
                                                                                {277, &facts.samples},
                                                                                {278, &facts.rows_a_strip},
                                                                                {339, &facts.sample_format}}};
-    if (tag >= 322 && tag <= 325) facts.tiled = true;
-    if (tag == 273) facts.offsets = values(at);
-    if (tag == 279) facts.counts = values(at);
+    if (tag >= kTiffTileWidth && tag <= kTiffTileByteCounts) facts.tiled = true;
+    if (tag == kTiffStripOffsets) facts.offsets = values(at);
+    if (tag == kTiffStripByteCounts) facts.counts = values(at);
     for (const auto& [number, place] : kNumbers) {
       if (tag != number) continue;
       const auto found = values(at);

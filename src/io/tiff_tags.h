@@ -12,6 +12,7 @@ enum TiffTag : std::uint64_t {
   kTiffHeight = 257,
   kTiffStripOffsets = 273,
   kTiffStripByteCounts = 279,
+  kTiffTileWidth = 322,
   kTiffTileOffsets = 324,
   kTiffTileByteCounts = 325,
 };

@@ -16,13 +16,12 @@ namespace {
 /// 200 points of sigma 0.02 px, 7 px wide (s = 2.02 px), of the strength 10, from point 100 on of a third of
 /// it.
 LineSet stained_line() {
-  LineSet lines;
+  LineSet lines = scenes::level_line(200, 7);
   for (int i = 0; i < 200; ++i) {
-    StripePoint& p = lines.points.emplace_back();
-    p.x = i, p.y = 50, p.normal_y = 1, p.width = 7, p.sigma_px = 0.02;
+    StripePoint& p = lines.points[static_cast<std::size_t>(i)];
+    p.sigma_px = 0.02;
     p.strength = 10 - 6.67 / (1 + std::exp(-(i - 100) / 1.5)) + 0.05 * (i % 3);
   }
-  lines.lines.push_back({0, 200});
   return lines;
 }
 

@@ -14,12 +14,8 @@ namespace {
 
 /// 200 points, 5 px wide; from 100 to 109 12 px.
 LineSet spotted_line() {
-  LineSet lines;
-  for (int i = 0; i < 200; ++i) {
-    StripePoint& p = lines.points.emplace_back();
-    p.x = i, p.normal_y = 1, p.width = i >= 100 && i < 110 ? 12 : 5;
-  }
-  lines.lines.push_back({0, 200});
+  LineSet lines = scenes::level_line(200, 5);
+  for (std::size_t i = 100; i < 110; ++i) lines.points[i].width = 12;
   lines.systematic.assign(200, 0.0F);
   return lines;
 }

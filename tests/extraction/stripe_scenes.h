@@ -12,6 +12,7 @@
 #include "core/image.h"
 #include "core/random.h"
 #include "core/stripe.h"
+#include "extraction/lines/line_set.h"
 
 namespace lightstripe::scenes {
 
@@ -128,6 +129,17 @@ struct Canvas {
     return out;
   }
 };
+
+/// One line of points 1 px apart along y = 0, `width` px wide.
+inline LineSet level_line(std::size_t count, double width) {
+  LineSet lines;
+  for (std::size_t i = 0; i < count; ++i) {
+    StripePoint& p = lines.points.emplace_back();
+    p.x = static_cast<double>(i), p.normal_y = 1, p.width = width;
+  }
+  lines.lines.push_back({0, count});
+  return lines;
+}
 
 /// How well extracted stripes cover known curves.
 struct Score {
