@@ -74,7 +74,8 @@ std::optional<JunctionCurve> fit_curve(std::span<const StripePoint> line, const 
   return curve;
 }
 
-void put_on(const JunctionCurve& curve, double sigma_px, StripePoint& p) {
+/// A point that was not bridged before errs by `pulled` px at least: another line draws at it.
+void put_on(const JunctionCurve& curve, double pulled, StripePoint& p) {
   const double w = curve.u_of(p), slope = curve.slope(w), scale = 1 / std::hypot(1.0, slope);
   const double off = curve.at(w) - curve.v_of(p);
   p.x -= off * curve.along_y;
@@ -85,7 +86,7 @@ void put_on(const JunctionCurve& curve, double sigma_px, StripePoint& p) {
   const double sign = nx * p.normal_x + ny * p.normal_y < 0 ? -1.0 : 1.0;
   p.normal_x = sign * nx;
   p.normal_y = sign * ny;
-  p.sigma_px = std::max(p.sigma_px, sigma_px);
+  if (!is_bridged(p)) p.sigma_px = std::max(p.sigma_px, pulled);
   p.flags |= kStripeBridged;
 }
 

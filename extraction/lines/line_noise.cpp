@@ -144,16 +144,22 @@ double share_outside(ImageView<T> image, double sigma, const StripePoint& p) {
   return inside > 3 * sigma ? 0.0 : 0.5 * std::erfc((inside + 0.5) / (sigma * std::numbers::sqrt2));
 }
 
+constexpr double kBridgedInGrain = 2;  ///< times the error of the line's measured points
+
 /// `recentred`: the share of the point's rows that grain_centres weighed; `outside`: that beyond the border.
 double predicted_error(const LineErrors& e, const DerivativeKernels& kernels, const StripePoint& p,
                        double recentred, double outside) {
-  // A bridged point is as good as the curve between its neighbours: it has their scatter, and more.
   const double own = centre_sigma(kernels, e.background, p.strength);
-  const double camera = (p.flags & kStripeBridged) == 0 ? own : std::max(5 * own, 0.1 * kernels.sigma);
   // Photons are the noisier the dimmer the line is; speckle is not.
   const double light = std::max(static_cast<double>(p.intensity), 0.1 * e.intensity);
-  return std::sqrt(camera * camera + e.photons * e.intensity / light + e.grain + (1 - recentred) * e.left +
-                   outside * outside * e.row);
+  const double photons = e.photons * e.intensity / light, border = outside * outside * e.row;
+  if ((p.flags & kStripeBridged) == 0)
+    return std::sqrt(own * own + photons + e.grain + (1 - recentred) * e.left + border);
+  // As good as the curve between its neighbours: it has their scatter, and more. In grain the gap is a dark
+  // grain, and rendered ones err by twice what the line's points do; without grain the shape is in doubt.
+  const double camera = e.grain > 0 ? 5 * own : std::max(5 * own, 0.1 * kernels.sigma);
+  const double of_grain = kBridgedInGrain * kBridgedInGrain * e.grain + e.left;
+  return std::sqrt(camera * camera + photons + of_grain + border);
 }
 
 }  // namespace
