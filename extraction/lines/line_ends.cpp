@@ -45,7 +45,8 @@ struct EndView {
   void continue_systematic(std::size_t first) const {
     if (systematic.empty()) return;
     const auto at = [&](std::size_t i) { return from_back ? systematic.size() - 1 - i : i; };
-    for (std::size_t i = 0; i < first; ++i) systematic[at(i)] = first < size() ? systematic[at(first)] : 0.0F;
+    const float there = first < size() ? systematic[at(first)] : 0.0F;
+    for (std::size_t i = 0; i < std::min(first, size()); ++i) systematic[at(i)] = there;
   }
   StripePoint& operator[](std::size_t i) const { return points[from_back ? points.size() - 1 - i : i]; }
 };
