@@ -16,7 +16,9 @@ namespace {
 // A line of light covers at least this share of a picture; fewer bright pixels are noise or dead ones.
 constexpr double kTopShare = 2e-4;
 constexpr std::int64_t kTopPixels = 16;
-constexpr int kClipped = 250;     // grey levels; cameras and codecs stop a little short of 255
+constexpr int kClipped = 250;      // grey levels; cameras and codecs stop a little short of 255
+constexpr int kClippedBand = 5;    // grey levels below the top that a clipped plane holds
+constexpr int kLeastClipped = 64;  // grey levels; no camera's range ends below
 constexpr int kDarkestCast = 15;  // grey levels by which the background may be of the opposite colour
 constexpr int kWhite = 200;       // grey levels of two planes
 constexpr int kCoreReach = 10;    // px from a coloured rim into a white core, kCoreSteps times
@@ -71,6 +73,27 @@ cv::Mat is_fringe(const ColourPlanes& bgr, std::size_t plane, const cv::Mat& lev
   return colour < kFaintest * edge;
 }
 
+/// Where the plane's range ends: at 255, or lower (video range, a tone curve), where that level is so much more
+/// common than those below it as only an end of the range makes it.
+int clipped_level(const cv::Mat& plane) {
+  constexpr int kPile = 2;  // times the band below
+  std::array<std::int64_t, 256> counts{};
+  for (int y = 0; y < plane.rows; ++y) {
+    const auto* row = plane.ptr<std::uint8_t>(y);
+    for (int x = 0; x < plane.cols; ++x) ++counts[row[x]];
+  }
+  int top = 255;
+  while (top > 0 && counts[static_cast<std::size_t>(top)] == 0) --top;
+  if (top >= kClipped || top < kLeastClipped) return kClipped;
+  const auto band = [&](int highest) {
+    std::int64_t sum = 0;
+    for (int k = highest; k > highest - kClippedBand; --k) sum += counts[static_cast<std::size_t>(k)];
+    return sum;
+  };
+  const bool piled = band(top) >= std::max(kTopPixels, kPile * band(top - kClippedBand));
+  return piled ? top - kClippedBand : kClipped;
+}
+
 struct LaserMasks {
   cv::Mat sure, faint, core;  ///< CV_8U, 0 or 255; not widened
 };
@@ -79,7 +102,7 @@ LaserMasks masks_of(const ColourRise& rise, const cv::Mat& plane) {
   LaserMasks m;
   m.sure = rise.level >= std::max({0.2 * rise.top, 5.0 * rise.noise, 6.0});
   m.faint = rise.level >= std::max({0.02 * rise.top, 3.0 * rise.noise, 3.0});
-  const cv::Mat clipped = plane >= kClipped;
+  const cv::Mat clipped = (plane >= clipped_level(plane)) | rise.bleached;
   cv::Mat reached;
   cv::dilate(m.sure, reached, square(kCoreReach));
   m.core = clipped & reached;
@@ -161,6 +184,23 @@ double texture_under_laser(const ColourPlanes& bgr, std::size_t plane, const Col
   return std::sqrt(std::max(0.0, rest)) / std::max(rise.top, 1.0);
 }
 
+/// Light that has outgrown the camera's range loses its colour wherever the camera, its tone curve or a blur of
+/// the optics puts the top: the plane is at its brightest there, the rims on both sides are more coloured, and
+/// the other planes show more of the light than the rims have colour. A dark grain or a dirty spot on the line is
+/// darker by as much as it lacks in colour; white grains of wood are not that bright. `around`: mean of the
+/// larger of the other planes.
+cv::Mat bleached_places(const cv::Mat& plane, const cv::Mat& larger, const cv::Mat& around,
+                        const cv::Mat& level, double top) {
+  constexpr double kFaded = 0.7, kDarker = 0.15;     // of the colour of the rims
+  constexpr double kLeastRim = 12, kLeastShare = 0.4;  // grey levels; of the line's most coloured places
+  cv::Mat rims, brightest, drop, light;
+  cv::morphologyEx(level, rims, cv::MORPH_CLOSE, square(kCoreReach));
+  cv::dilate(plane, brightest, square(kCoreReach));
+  cv::subtract(brightest, plane, drop, cv::noArray(), CV_16S);
+  cv::subtract(larger, around, light, cv::noArray(), CV_16S);
+  return (rims >= std::max(kLeastRim, kLeastShare * top)) & (level <= kFaded * rims) & (drop <= kDarker * rims) & (light >= rims);
+}
+
 /// White light has no colour to tell: there it takes that of the rims on both sides.
 void fill_white(const cv::Mat& white, cv::Mat& level) {
   if (cv::countNonZero(white) == 0) return;
@@ -184,9 +224,12 @@ ColourRise colour_rise(const ColourPlanes& bgr, std::size_t plane) {
   const int reach = std::max(15, std::max(difference.cols, difference.rows) / 16);
   cv::blur(difference, around, {2 * reach + 1, 2 * reach + 1});
   rise.level -= around;
+  const cv::Mat unfilled = rise.level.clone();
   fill_white((bgr.at(plane) >= kWhite) & (larger >= kWhite), rise.level);
   rise.noise = usual_level(rise.level);
   rise.top = top_level(rise.level);
+  cv::blur(larger, around, {2 * reach + 1, 2 * reach + 1});
+  rise.bleached = bleached_places(bgr.at(plane), larger, around, unfilled, rise.top);
   return rise;
 }
 

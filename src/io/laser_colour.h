@@ -16,6 +16,7 @@ using ColourPlanes = std::array<cv::Mat, 3>;  ///< 8 bits each: B, G, R
 /// neither a wrong white balance nor a large coloured thing counts.
 struct ColourRise {
   cv::Mat level;     ///< CV_16S, grey levels
+  cv::Mat bleached;  ///< CV_8U, 0 or 255: as bright as any place around, and less coloured
   double noise = 0;  ///< its usual level, 1 sigma, grey levels
   double top = 0;    ///< level that the brightest 0.02 % of the pixels reach
 };
