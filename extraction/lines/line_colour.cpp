@@ -17,6 +17,8 @@ namespace {
 /// Full widths from the centre to where the colour of the surroundings is read: 3 standard deviations of a
 /// Gaussian stripe.
 constexpr double kAsideOfLight = 0.9;
+/// Full widths from the centre to the rims, which are more coloured than a core too bright for its colour.
+constexpr double kAsideOfCore = 0.5;
 /// Pixels, at least so far aside: the colour is known in means of 3 x 3 pixels.
 constexpr double kLeastAside = 3;
 /// Of the points that are looked at: with fewer unclipped ones the colour of the line is not known.
@@ -35,14 +37,18 @@ int rise_at(ImageView<T> image, double x, double y) {
   return image.rise[row * image.stride + column];
 }
 
-/// Rise of the colour at one point over the mean of both sides, grey levels; NaN in a clipped core.
+/// Rise of the colour at one point, or on both rims of the line, over the mean of both sides, grey levels; NaN
+/// in a clipped core.
 template <class T>
-float rise_over_sides(ImageView<T> image, const StripePoint& p, double aside) {
-  const int at = rise_at(image, p.x, p.y);
+float rise_over_sides(ImageView<T> image, const StripePoint& p, double rim, double aside) {
+  const auto beside = [&](double distance) {
+    return rise_at(image, p.x + distance * p.normal_x, p.y + distance * p.normal_y);
+  };
+  const int at = beside(0);
   if (at == kClippedRise) return kUnknown;
-  const int left = rise_at(image, p.x - aside * p.normal_x, p.y - aside * p.normal_y),
-            right = rise_at(image, p.x + aside * p.normal_x, p.y + aside * p.normal_y);
-  return static_cast<float>(at) - 0.5F * static_cast<float>(left + right);
+  const int rims = std::min(beside(-rim), beside(rim));
+  if (rims == kClippedRise) return kUnknown;
+  return static_cast<float>(std::max(at, rims)) - 0.5F * static_cast<float>(beside(-aside) + beside(aside));
 }
 
 double median_of_known(const std::vector<float>& values, std::vector<float>& scratch) {
@@ -63,7 +69,7 @@ LineColour look_at_line(ImageView<T> image, const LineSet& lines, const LineRang
   for (std::size_t i = range.begin; i < range.end; i += step) {
     const StripePoint& p = lines.points[i];
     const bool bridged = (p.flags & kStripeBridged) != 0;
-    const float rise = bridged ? kUnknown : rise_over_sides(image, p, aside);
+    const float rise = bridged ? kUnknown : rise_over_sides(image, p, kAsideOfCore * width, aside);
     looked_at += bridged ? 0U : 1U;
     known += std::isnan(rise) ? 0U : 1U;
     w.rises.push_back(rise);
