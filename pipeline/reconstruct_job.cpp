@@ -19,16 +19,20 @@ namespace {
 namespace fs = std::filesystem;
 
 void guard(const ReconstructJob& job) {
-  std::vector<fs::path> inputs = files_of(job.scan), outputs = job.other_outputs;
-  inputs.push_back(job.scan_file);
-  inputs.push_back(job.rig_file);
+  const std::vector<fs::path> named{job.scan_file, job.rig_file, job.scan.folder / job.scan.travel_file,
+                                    job.scan.folder / job.scan.poses_file};
+  std::vector<fs::path> inputs = files_of(job.scan), outputs = job.other_outputs, partial;
+  inputs.insert(inputs.end(), named.begin(), named.end());
   for (const fs::path& output : {job.cloud, job.profiles}) {
     if (output.empty()) continue;
     outputs.push_back(output);
-    outputs.push_back(ResumableFile::partial_of(output));
     outputs.push_back(output.string() + ".run.yaml");
+    partial.push_back(ResumableFile::partial_of(output));
   }
   guard_outputs(inputs, outputs);
+  // What a killed run left holds points and no picture: to go on, not every picture's file is looked up.
+  partial.insert(partial.end(), outputs.begin(), outputs.end());
+  guard_outputs(named, partial);
 }
 
 /// The scan itself.

@@ -37,8 +37,8 @@ int rise_at(ImageView<T> image, double x, double y) {
   return image.rise[row * image.stride + column];
 }
 
-/// Rise of the colour at one point, or on both rims of the line, over the mean of both sides, grey levels; NaN
-/// in a clipped core.
+/// Rise of the colour at one point, or on both rims of the line, over the mean of both sides, grey levels;
+/// NaN in a clipped core.
 template <class T>
 float rise_over_sides(ImageView<T> image, const StripePoint& p, double rim, double aside) {
   const auto beside = [&](double distance) {

@@ -144,22 +144,37 @@ double share_outside(ImageView<T> image, double sigma, const StripePoint& p) {
   return inside > 3 * sigma ? 0.0 : 0.5 * std::erfc((inside + 0.5) / (sigma * std::numbers::sqrt2));
 }
 
-constexpr double kBridgedInGrain = 2;  ///< times the error of the line's measured points
+/// How a point was come by.
+struct PointPlace {
+  double recentred = 0;  ///< the share of the point's rows that grain_centres weighed
+  double outside = 0;    ///< that of its kernels beyond the border
+  double gap = 0;        ///< points of the bridge that it belongs to
+};
 
-/// `recentred`: the share of the point's rows that grain_centres weighed; `outside`: that beyond the border.
 double predicted_error(const LineErrors& e, const DerivativeKernels& kernels, const StripePoint& p,
-                       double recentred, double outside) {
+                       const PointPlace& place) {
   const double own = centre_sigma(kernels, e.background, p.strength);
   // Photons are the noisier the dimmer the line is; speckle is not.
   const double light = std::max(static_cast<double>(p.intensity), 0.1 * e.intensity);
-  const double photons = e.photons * e.intensity / light, border = outside * outside * e.row;
-  if ((p.flags & kStripeBridged) == 0)
-    return std::sqrt(own * own + photons + e.grain + (1 - recentred) * e.left + border);
+  const double photons = e.photons * e.intensity / light, border = place.outside * place.outside * e.row;
+  const double left = (1 - place.recentred) * e.left;
+  if ((p.flags & kStripeBridged) == 0) return std::sqrt(own * own + photons + e.grain + left + border);
   // As good as the curve between its neighbours: it has their scatter, and more. In grain the gap is a dark
-  // grain, and rendered ones err by twice what the line's points do; without grain the shape is in doubt.
+  // grain: bridges of rendered ones err by 1.2 times what the points beside them do where they are two scales
+  // long, by 2.2 times at six; scales of kernels that suit the stripe. Without grain the shape is in doubt.
+  constexpr double kGapOfGrain = 3, kSuitable = 2 / 3.4641016;  // scales; of the width, 2 sqrt(3) s
+  const double gap = place.gap / (kGapOfGrain * std::max(kernels.sigma, kSuitable * p.width));
+  const double longer = 1 + gap * gap;
   const double camera = e.grain > 0 ? 5 * own : std::max(5 * own, 0.1 * kernels.sigma);
-  const double of_grain = kBridgedInGrain * kBridgedInGrain * e.grain + e.left;
-  return std::sqrt(camera * camera + photons + of_grain + border);
+  return std::sqrt(camera * camera + photons + longer * e.grain + left + border);
+}
+
+/// The points from `begin` on that have one sense: bridged, or not.
+std::size_t end_of_stretch(const LineSet& lines, const LineRange& r, std::size_t begin) {
+  const auto is_bridged = [&](std::size_t i) { return (lines.points[i].flags & kStripeBridged) != 0; };
+  std::size_t end = begin + 1;
+  while (end < r.end && is_bridged(end) == is_bridged(begin)) ++end;
+  return end;
 }
 
 }  // namespace
@@ -185,10 +200,15 @@ void predict_errors(ImageView<T> image, const DerivativeKernels& kernels, double
                     LineSet& lines, ErrorWorkspace& w) {
   for (LineRange& r : lines.lines) {
     const LineErrors errors = errors_of_line(image, kernels, background_noise, lines, r, w);
-    for (std::size_t i = r.begin; i < r.end; ++i)
-      lines.points[i].sigma_px = predicted_error(errors, kernels, lines.points[i],
-                                                 i < lines.recentred.size() ? lines.recentred[i] : 0.0,
-                                                 share_outside(image, kernels.sigma, lines.points[i]));
+    for (std::size_t begin = r.begin, end = 0; begin < r.end; begin = end) {
+      end = end_of_stretch(lines, r, begin);
+      const auto gap = static_cast<double>(end - begin);
+      for (std::size_t i = begin; i < end; ++i)
+        lines.points[i].sigma_px =
+            predicted_error(errors, kernels, lines.points[i],
+                            {i < lines.recentred.size() ? lines.recentred[i] : 0.0,
+                             share_outside(image, kernels.sigma, lines.points[i]), gap});
+    }
   }
 }
 

@@ -19,9 +19,9 @@ constexpr std::int64_t kTopPixels = 16;
 constexpr int kClipped = 250;      // grey levels; cameras and codecs stop a little short of 255
 constexpr int kClippedBand = 5;    // grey levels below the top that a clipped plane holds
 constexpr int kLeastClipped = 64;  // grey levels; no camera's range ends below
-constexpr int kDarkestCast = 15;  // grey levels by which the background may be of the opposite colour
-constexpr int kWhite = 200;       // grey levels of two planes
-constexpr int kCoreReach = 10;    // px from a coloured rim into a white core, kCoreSteps times
+constexpr int kDarkestCast = 15;   // grey levels by which the background may be of the opposite colour
+constexpr int kWhite = 200;        // grey levels of two planes
+constexpr int kCoreReach = 10;     // px from a coloured rim into a white core, kCoreSteps times
 constexpr int kCoreSteps = 3;
 constexpr int kMargin = 4;  // px around what was found: the foot of the stripe
 
@@ -73,10 +73,10 @@ cv::Mat is_fringe(const ColourPlanes& bgr, std::size_t plane, const cv::Mat& lev
   return colour < kFaintest * edge;
 }
 
-/// Where the plane's range ends: at 255, or lower (video range, a tone curve), where that level is so much more
-/// common than those below it as only an end of the range makes it.
+/// Where the plane's range ends: at 255, or lower (video range, a tone curve), where that level is so much
+/// more common than those below it as only an end of the range makes it.
 int clipped_level(const cv::Mat& plane) {
-  constexpr int kPile = 2;  // times the band below
+  constexpr int kPile = 4;  // times the band below; the round top of a line reaches 2.4
   std::array<std::int64_t, 256> counts{};
   for (int y = 0; y < plane.rows; ++y) {
     const auto* row = plane.ptr<std::uint8_t>(y);
@@ -184,21 +184,22 @@ double texture_under_laser(const ColourPlanes& bgr, std::size_t plane, const Col
   return std::sqrt(std::max(0.0, rest)) / std::max(rise.top, 1.0);
 }
 
-/// Light that has outgrown the camera's range loses its colour wherever the camera, its tone curve or a blur of
-/// the optics puts the top: the plane is at its brightest there, the rims on both sides are more coloured, and
-/// the other planes show more of the light than the rims have colour. A dark grain or a dirty spot on the line is
-/// darker by as much as it lacks in colour; white grains of wood are not that bright. `around`: mean of the
-/// larger of the other planes.
+/// Light that has outgrown the camera's range loses its colour wherever the camera, its tone curve or a blur
+/// of the optics puts the top: the plane is at its brightest there, the rims on both sides are more coloured,
+/// and the other planes show more of the light than the rims have colour. A dark grain or a dirty spot on the
+/// line is darker by as much as it lacks in colour; white grains of wood are not that bright. `around`: mean
+/// of the larger of the other planes.
 cv::Mat bleached_places(const cv::Mat& plane, const cv::Mat& larger, const cv::Mat& around,
                         const cv::Mat& level, double top) {
-  constexpr double kFaded = 0.7, kDarker = 0.15;     // of the colour of the rims
+  constexpr double kFaded = 0.7, kDarker = 0.15;       // of the colour of the rims
   constexpr double kLeastRim = 12, kLeastShare = 0.4;  // grey levels; of the line's most coloured places
   cv::Mat rims, brightest, drop, light;
   cv::morphologyEx(level, rims, cv::MORPH_CLOSE, square(kCoreReach));
   cv::dilate(plane, brightest, square(kCoreReach));
   cv::subtract(brightest, plane, drop, cv::noArray(), CV_16S);
   cv::subtract(larger, around, light, cv::noArray(), CV_16S);
-  return (rims >= std::max(kLeastRim, kLeastShare * top)) & (level <= kFaded * rims) & (drop <= kDarker * rims) & (light >= rims);
+  return (rims >= std::max(kLeastRim, kLeastShare * top)) & (level <= kFaded * rims) &
+         (drop <= kDarker * rims) & (light >= rims);
 }
 
 /// White light has no colour to tell: there it takes that of the rims on both sides.

@@ -10,6 +10,7 @@
 #include <fstream>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -38,6 +39,27 @@ std::optional<Identity> identity_of(const fs::path& path) {
   const fs::path resolved = fs::weakly_canonical(fs::absolute(path, error), error);
   return error ? path.string() : resolved.string();
 }
+
+/// Which inputs may be one of the outputs, so that a file server is not asked about each of a million
+/// pictures: any where an output exists already, else only one of the same name, which does not exist either.
+class InputsToCompare {
+ public:
+  explicit InputsToCompare(const std::vector<fs::path>& outputs) {
+    for (const fs::path& output : outputs) {
+      if (output.empty()) continue;
+      std::error_code none;
+      exists_ = exists_ || fs::exists(fs::symlink_status(output, none));
+      names_.insert(output.filename().string());
+    }
+  }
+  bool operator()(const fs::path& input) const {
+    return exists_ || names_.contains(input.filename().string());
+  }
+
+ private:
+  bool exists_ = false;
+  std::set<std::string> names_;
+};
 
 void add_pattern(const fs::path& folder, const std::string& pattern, std::vector<fs::path>& files) {
   if (pattern.empty()) return;
@@ -72,8 +94,9 @@ bool is_hand_written(const fs::path& path) {
 
 void guard_marked_outputs(const std::vector<fs::path>& inputs, const std::vector<fs::path>& outputs) {
   std::map<Identity, fs::path> read, written;
+  const InputsToCompare may_be_one(outputs);
   for (const fs::path& input : inputs)
-    if (!input.empty())
+    if (!input.empty() && may_be_one(input))
       if (const auto identity = identity_of(input)) read.emplace(*identity, input);
   for (const fs::path& output : outputs) {
     if (output.empty()) continue;

@@ -58,6 +58,20 @@ TEST(LineColour, RisesWithTheLightOfTheLaserOnly) {
   EXPECT_NEAR(colour_of(coloured_line([](int) { return 0.0; })).share, 0, 0.01);
 }
 
+TEST(LineColour, OfABleachedCoreIsThatOfItsRims) {
+  Image8 image = coloured_line([](int) { return 0.6; });
+  for (int y = 0; y < kHeight; ++y)
+    for (int x = 0; x < kWidth; ++x) {
+      const double rim = std::exp(-0.5 * std::pow((std::abs(x - kCentre) - 3.5) / 1.0, 2));
+      image.rise[static_cast<std::size_t>(y * kWidth + x)] = static_cast<std::uint8_t>(std::lround(40 * rim));
+    }
+  EXPECT_GT(colour_of(image).share, 0.3);
+  // A slope, as of the glow beside an edge, is no rim.
+  for (std::size_t i = 0; i < image.rise.size(); ++i)
+    image.rise[i] = static_cast<std::uint8_t>(2 * (i % kWidth));
+  EXPECT_NEAR(colour_of(image).share, 0, 0.03);
+}
+
 TEST(LineColour, IsNotKnownWhereTheLineIsClippedOrThePictureIsGrey) {
   Image8 image = coloured_line([](int) { return 0.6; });
   for (int y = 0; y < kHeight; y++)

@@ -29,6 +29,7 @@ LineSet crossed_line() {
     if (std::abs(y - 100) <= 4) {
       p.x += 0.5;
       p.flags = kStripeBridged;
+      p.sigma_px = 0.3;  // predict_errors knows the gap
     }
     lines.points.push_back(p);
   }
@@ -41,7 +42,8 @@ TEST(LineJunctions, TheBridgeAndWhatWasDrawnAsideGoToTheCurve) {
   mend_junctions(make_derivative_kernels(2), lines);
   for (const StripePoint& p : lines.points) EXPECT_NEAR(p.x, x_at(p.y), 0.06) << p.y;
   EXPECT_NE(lines.points[94].flags & kStripeBridged, 0);
-  EXPECT_GT(lines.points[100].sigma_px, 0.1);
+  EXPECT_EQ(lines.points[100].sigma_px, 0.3);
+  EXPECT_GE(lines.points[94].sigma_px, 0.2);  // drawn aside: a tenth of the scale at least
   EXPECT_EQ(lines.points[60].flags, 0);
 }
 

@@ -77,9 +77,9 @@ TEST(RowScatter, ObliqueLinesAreJudgedAsUprightOnes) {
         // share pixels with the line's kernels in a way that the model does not know, and count for more than
         // they are (0.2 in the worst case, 0.08 before their scale was). In grain a narrow kernel averages
         // over less of the line than an oblique row crosses (grain_centres looks 2.5 standard deviations
-        // aside).
+        // aside), and a fifth of its points are bridges, whose error grows with the gap.
         const bool steep = std::abs(slope) > 0.8;
-        EXPECT_GE(actual / predicted, !steep         ? (kernel > 1.5 || contrast == 0 ? 0.55 : 0.4)
+        EXPECT_GE(actual / predicted, !steep         ? (kernel > 1.5 || contrast == 0 ? 0.55 : 0.35)
                                       : kernel > 1.5 ? 0.5
                                                      : 0.15)
             << slope << ' ' << contrast << ' ' << kernel;

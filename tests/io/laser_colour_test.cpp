@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <opencv2/imgproc.hpp>
+#include <tuple>
 
 #include "core/image.h"
 #include "io/choose_channel.h"
@@ -49,6 +51,36 @@ TEST(LaserVote, AWhiteCoreHasTheColourOfItsRim) {
     EXPECT_EQ(vote.plane, static_cast<int>(plane));
     EXPECT_TRUE(vote.clipped);
   }
+}
+
+TEST(LaserVote, AWhiteCoreIsSeenWhereverTheRangeOfTheCameraEnds) {
+  const ColourPlanes full = room_with_line({300, 300, 1500});
+  for (const auto& [scale, offset, blur] : {std::tuple{219.0 / 255, 16.0, 0.0},  // video range: 16 to 235
+                                            std::tuple{0.6, 0.0, 0.0}, std::tuple{1.0, 0.0, 2.0}}) {
+    ColourPlanes planes;
+    for (std::size_t k = 0; k < 3; ++k) {
+      full.at(k).convertTo(planes.at(k), CV_8U, scale, offset);
+      if (blur > 0) cv::GaussianBlur(planes.at(k), planes.at(k), {}, blur);
+    }
+    const LaserVote vote = vote_for_laser(planes);
+    EXPECT_EQ(vote.plane, 2) << scale;
+    EXPECT_TRUE(vote.clipped) << scale << ' ' << blur;
+    EXPECT_FALSE(vote.textured) << scale << ' ' << blur;
+    EXPECT_EQ(where_laser_colour(planes, 2).rise[120 * 320 + 160], kClippedRise) << scale << ' ' << blur;
+  }
+}
+
+TEST(LaserVote, DarkGrainsOfALineAreNoWhiteCore) {
+  ColourPlanes planes = room_with_line({0, 0, 150});
+  for (int y = 0; y < 240; y += 6)  // two rows of six hold half of the light
+    for (int x = 130; x < 190; ++x)
+      for (int k = 0; k < 2; ++k) {
+        auto& pixel = planes[2].at<std::uint8_t>(y + k, x);
+        pixel = static_cast<std::uint8_t>(60 + (pixel - 60) / 2);
+      }
+  EXPECT_FALSE(vote_for_laser(planes).clipped);
+  const auto rise = where_laser_colour(planes, 2).rise;
+  EXPECT_EQ(std::count(rise.begin(), rise.end(), kClippedRise), 0);
 }
 
 TEST(LaserVote, NothingWithoutColour) { EXPECT_EQ(vote_for_laser(room_with_line({90, 90, 90})).plane, -1); }

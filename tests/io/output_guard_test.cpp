@@ -45,6 +45,13 @@ TEST(OutputGuard, TwoOutputsOfOneNameAreRefusedBeforeTheyExist) {
   EXPECT_EQ(complaint({}, {folder / "x.ply", folder / "x.csv", "", ""}), "");
 }
 
+TEST(OutputGuard, AnInputThatIsNotThereYetIsFoundByItsName) {
+  const TempFolder folder;
+  fs::create_directories(folder / "a");
+  fs::create_directory_symlink(folder / "a", folder / "b");
+  EXPECT_THAT(complaint({folder / "a/out.csv"}, {folder / "b/out.csv"}), HasSubstr("is one of the inputs"));
+}
+
 TEST(OutputGuard, DevicesMayBeNamedTwice) {
   EXPECT_EQ(complaint({"/dev/null"}, {"/dev/null", "/dev/null"}), "");
 }
