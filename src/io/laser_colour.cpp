@@ -193,6 +193,7 @@ cv::Mat bleached_places(const cv::Mat& plane, const cv::Mat& larger, const cv::M
                         const cv::Mat& level, double top) {
   constexpr double kFaded = 0.7, kDarker = 0.15;       // of the colour of the rims
   constexpr double kLeastRim = 12, kLeastShare = 0.4;  // grey levels; of the line's most coloured places
+  if (top < kLeastRim) return cv::Mat::zeros(level.size(), CV_8U);  // a colour that the picture has not
   cv::Mat rims, brightest, drop, light;
   cv::morphologyEx(level, rims, cv::MORPH_CLOSE, square(kCoreReach));
   cv::dilate(plane, brightest, square(kCoreReach));
