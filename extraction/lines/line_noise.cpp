@@ -8,6 +8,7 @@
 
 #include "core/robust.h"
 #include "extraction/follow/line_point.h"
+#include "extraction/kernels/width_rule.h"
 #include "extraction/lines/cross_profile.h"
 #include "extraction/lines/line_measure.h"
 #include "extraction/lines/ranked_value.h"
@@ -162,8 +163,9 @@ double predicted_error(const LineErrors& e, const DerivativeKernels& kernels, co
   // As good as the curve between its neighbours: it has their scatter, and more. In grain the gap is a dark
   // grain: bridges of rendered ones err by 1.2 times what the points beside them do where they are two scales
   // long, by 2.2 times at six; scales of kernels that suit the stripe. Without grain the shape is in doubt.
-  constexpr double kGapOfGrain = 3, kSuitable = 2 / 3.4641016;  // scales; of the width, 2 sqrt(3) s
-  const double gap = place.gap / (kGapOfGrain * std::max(kernels.sigma, kSuitable * p.width));
+  constexpr double kGapOfGrain = 3, kSuitable = 2;  // scales; of the stripe's own
+  const double gap =
+      place.gap / (kGapOfGrain * std::max(kernels.sigma, kSuitable * sigma_of_full_width(p.width)));
   const double longer = 1 + gap * gap;
   const double camera = e.grain > 0 ? 5 * own : std::max(5 * own, 0.1 * kernels.sigma);
   return std::sqrt(camera * camera + photons + longer * e.grain + left + border);
