@@ -90,8 +90,9 @@ void filter_groups(const Run<T>& run, double width_slack) {
   w.tests.tried = w.groups.rejected;
   for (std::size_t g = 0; g < w.groups.count; ++g) {
     ScaleGroup& group = w.groups.all[g];
-    filter_lines(run.image, *group.kernels, run.facts.noise.seen, run.options.lines, width_slack, w.tests,
-                 group.lines, w.facts[g]);
+    filter_lines(run.image, *group.kernels,
+                 {run.facts.noise.seen, 1.0 * run.facts.histogram.largest, width_slack}, run.options.lines,
+                 w.tests, group.lines, w.facts[g]);
     w.filtered.push_back({group.kernels, &group.lines, &w.facts[g]});
   }
   // Gleams with the laser off; a faint line has to be long. The range of 16-bit pixels is not known.

@@ -11,8 +11,11 @@
 namespace lightstripe {
 namespace {
 
-/// Of the mean height of a crowd of edges, and how long they are together against the lines to be a crowd.
-constexpr double kOverEdges = 1.2, kManyEdges = 0.25;
+/// Of the mean height and of the mean brighter side of a crowd of edges, and how long they are together
+/// against the lines to be a crowd.
+constexpr double kOverEdges = 1.2, kOverBrightSides = 1.15, kManyEdges = 0.25;
+/// Times the least length: longer and more even lines are not made of edges by chance.
+constexpr double kLongAndEven = 4;
 /// Of the least length: evidence that a line needs, with and without the laser's colour.
 constexpr double kColouredEvidence = 0.4, kGreyEvidence = 0.6;
 /// Rise of the colour over the rise of the grey value: with less a line is doubtful.
@@ -72,10 +75,21 @@ struct Judge {
   const LineFilterOptions& options;
   const FaintLineRule& rule;
   Reference reference;
+  /// Grey levels that lines in a grey picture full of edges have to exceed, in height or in level.
+  double height_of_edges = 0, level_of_edges = 0;
 
+  bool is_no_edge(const DerivativeKernels& kernels, const LineFacts& line) const;
   bool is_visible(const DerivativeKernels& kernels, const LineFacts& line) const;
   bool is_bright_enough(const DerivativeKernels& kernels, const LineFacts& line, bool goes_on) const;
 };
+
+/// In a picture full of edges a line no brighter than they are is made by the same things: printed bars are as
+/// bright as the brighter side of the edges. Laser light adds to what it falls on.
+bool Judge::is_no_edge(const DerivativeKernels& kernels, const LineFacts& line) const {
+  if (line.colour_known || line.intensity > height_of_edges || line.level > level_of_edges) return true;
+  return line.length * line.flanks * (1 - line.odd_share) >=
+         kLongAndEven * options.min_length * full_width_of(kernels.sigma);
+}
 
 bool Judge::is_visible(const DerivativeKernels& kernels, const LineFacts& line) const {
   // Single pixels of a wide stripe may drown in noise that its ridge stands out of.
@@ -177,13 +191,13 @@ bool continues_kept_line(std::span<const FilteredLines> groups, const FilteredLi
 }
 
 /// Keeps the lines that go on where kept ones end; true if there were any.
-bool keep_continuations(std::span<const FilteredLines> groups, const Judge& judge, double least_intensity) {
+bool keep_continuations(std::span<const FilteredLines> groups, const Judge& judge) {
   bool found = false;
   for (const FilteredLines& group : groups)
     for (std::size_t k = 0; k < group.facts->size(); ++k) {
       LineFacts& line = (*group.facts)[k];
-      if (line.kept || (!line.colour_known && line.intensity <= least_intensity) ||
-          !judge.is_visible(*group.kernels, line) || !judge.is_bright_enough(*group.kernels, line, true) ||
+      if (line.kept || !judge.is_visible(*group.kernels, line) ||
+          !judge.is_bright_enough(*group.kernels, line, true) ||
           !continues_kept_line(groups, group, k))
         continue;
       line.kept = found = true;
@@ -200,15 +214,15 @@ void drop_faint_lines(std::span<const FilteredLines> groups, const LineFilterOpt
   double length = 0;
   for (const FilteredLines& group : groups)
     for (const LineFacts& line : *group.facts) length += line.length;
-  // In a grey picture full of edges a line no brighter than they are is made by the same things.
-  const double least_intensity =
-      rule.width_slack > 1 && edges.length > kManyEdges * length ? kOverEdges * edges.height() : 0.0;
+  if (rule.width_slack > 1 && edges.length > kManyEdges * length) {
+    judge.height_of_edges = kOverEdges * edges.height();
+    judge.level_of_edges = kOverBrightSides * edges.level();
+  }
   for (const FilteredLines& group : groups)
     for (LineFacts& line : *group.facts)
-      line.kept = (line.colour_known || line.intensity > least_intensity) &&
-                  judge.is_visible(*group.kernels, line) &&
+      line.kept = judge.is_no_edge(*group.kernels, line) && judge.is_visible(*group.kernels, line) &&
                   judge.is_bright_enough(*group.kernels, line, false);
-  while (rule.width_slack > 1 && keep_continuations(groups, judge, least_intensity)) {
+  while (rule.width_slack > 1 && keep_continuations(groups, judge)) {
   }
   for (const FilteredLines& group : groups) drop_lines(*group.lines, *group.facts);
 }

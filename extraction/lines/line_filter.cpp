@@ -31,11 +31,10 @@ constexpr double kLongestOther = 1.5;
 
 struct Trial {
   const DerivativeKernels& kernels;
-  double noise;
+  const LineFilterRule& rule;
   const LineFilterOptions& options;
   LineFilterWorkspace& w;
   double full_width;  ///< px, of the stripes of this image
-  double width_slack = 1;
   bool colour_known = false;
   double profile_noise = 0;  ///< grey levels, of the line on trial: less where its profiles were averaged
 
@@ -195,6 +194,15 @@ double typical_intensity(Trial& t, const LineSet& lines, const LineRange& r) {
   return ranked_value(t.w.scratch, t.w.scratch.size() * 3 / 4);
 }
 
+/// Median width at half height over that of the foot: how flat the top is.
+double flatness(Trial& t, const LineSet& lines, const LineRange& r) {
+  t.w.scratch.clear();
+  for (std::size_t i = r.begin; i < r.end; i += sample_step(r))
+    t.w.scratch.push_back(lines.half_level_widths[i] /
+                          std::max(1.0F, static_cast<float>(lines.points[i].width)));
+  return ranked_median(t.w.scratch);
+}
+
 /// Median over the line of the smaller over the larger drop from the ridge to both sides.
 double flank_ratio(Trial& t, const LineSet& lines, const LineRange& r) {
   t.w.scratch.clear();
@@ -205,6 +213,19 @@ double flank_ratio(Trial& t, const LineSet& lines, const LineRange& r) {
     t.w.scratch.push_back(larger > 0 ? std::max(smaller, 0.0F) / larger : 0.0F);
   }
   return t.w.scratch.empty() ? 1.0 : ranked_median(t.w.scratch);
+}
+
+/// Median grey value of the pixels that the line runs through.
+template <class T>
+double median_level(ImageView<T> image, const LineSet& lines, const LineRange& r,
+                    std::vector<float>& scratch) {
+  scratch.clear();
+  for (std::size_t i = r.begin; i < r.end; i += sample_step(r)) {
+    const StripePoint& p = lines.points[i];
+    scratch.push_back(static_cast<float>(image(std::clamp(nearest_pixel(p.x), 0, image.width - 1),
+                                               std::clamp(nearest_pixel(p.y), 0, image.height - 1))));
+  }
+  return ranked_median(scratch);
 }
 
 LineFacts facts_of(Trial& t, const LineSet& lines, const LineRange& r) {
@@ -229,23 +250,34 @@ LineFacts facts_of(Trial& t, const LineSet& lines, const LineRange& r) {
   facts.odd_share = static_cast<double>(odd) / count;
   facts.coloured_share = static_cast<double>(coloured) / count;
   facts.colour_known = t.colour_known;
+  facts.clipped_share = flagged_share(lines, r, kStripeSaturated);
+  facts.flatness = flatness(t, lines, r);
   facts.flanks = flank_ratio(t, lines, r);
   facts.width = median_width(t, lines, r);
   facts.intensity = typical_intensity(t, lines, r);
   return facts;
 }
 
+/// Light has a round top wherever the camera does not clip it, even far out of focus (0.89). A bar with a flat
+/// one is printed or a thing in other light.
+bool is_flat_bar(const Trial& t, const LineFacts& line) {
+  constexpr double kFlattest = 0.9;
+  constexpr double kUnclipped = 0.9;  // of the brightest level, where a camera's range may end
+  return t.rule.width_slack > 1 && line.flatness > kFlattest && line.clipped_share < 0.25 &&
+         line.level < kUnclipped * t.rule.brightest;
+}
+
 /// Length and width tests, which need no other line; a short line has to be the more regular.
 bool is_stripe_like(const Trial& t, const LineFacts& line) {
   // Lines of their own scale are judged by length and brightness together, later on.
-  const double least = t.width_slack > 1 && line.colour_known ? kShortest : 1.0;
+  const double least = t.rule.width_slack > 1 && line.colour_known ? kShortest : 1.0;
   if (line.length < least * t.options.min_length * t.full_width || line.bridged_share > 0.5) return false;
-  if (line.flanks < kLeastFlanks || line.coloured_share < 0.5) return false;
+  if (line.flanks < kLeastFlanks || line.coloured_share < 0.5 || is_flat_bar(t, line)) return false;
   if (line.colour.known && line.colour.share < kLeastColour) return false;
   const double ratio = std::max(line.width, 1e-3) / t.full_width;
   const double most =
       line.length < 12 * t.full_width ? 0.75 * t.options.max_width_ratio : t.options.max_width_ratio;
-  return ratio < t.width_slack * most && 1.0 / ratio < 1.5 * t.width_slack * most;
+  return ratio < t.rule.width_slack * most && 1.0 / ratio < 1.5 * t.rule.width_slack * most;
 }
 
 /// A column (row) of the sensor that is defective: exactly straight, exactly on the pixels, and narrower than
@@ -281,17 +313,16 @@ void drop_lines(LineSet& lines, std::vector<LineFacts>& facts) {
 }
 
 template <class T>
-void filter_lines(ImageView<T> image, const DerivativeKernels& kernels, double noise,
-                  const LineFilterOptions& options, double width_slack, LineFilterWorkspace& workspace,
-                  LineSet& lines, std::vector<LineFacts>& facts) {
-  Trial trial{
-      kernels, noise, options, workspace, full_width_of(kernels.sigma), width_slack, image.where != nullptr};
-  measure_points(image, kernels, noise, lines, workspace.measure);
+void filter_lines(ImageView<T> image, const DerivativeKernels& kernels, const LineFilterRule& rule,
+                  const LineFilterOptions& options, LineFilterWorkspace& workspace, LineSet& lines,
+                  std::vector<LineFacts>& facts) {
+  Trial trial{kernels, rule, options, workspace, full_width_of(kernels.sigma), image.where != nullptr};
+  measure_points(image, kernels, rule.noise, lines, workspace.measure);
   workspace.colour.assign(lines.points.size(), LaserPlace::kSure);
   workspace.tried += lines.lines.size();
   workspace.kept.clear();
   for (std::size_t k = 0; k < lines.lines.size(); ++k) {
-    trial.profile_noise = noise / std::sqrt(workspace.measure.averaged[k]);
+    trial.profile_noise = rule.noise / std::sqrt(workspace.measure.averaged[k]);
     if (trial.colour_known) {
       place_points(image, lines, lines.lines[k], median_width(trial, lines, lines.lines[k]),
                    workspace.colours, workspace.colour);
@@ -303,21 +334,23 @@ void filter_lines(ImageView<T> image, const DerivativeKernels& kernels, double n
   facts.clear();
   for (const LineRange& r : lines.lines) {
     LineFacts& line = facts.emplace_back(facts_of(trial, lines, r));
+    line.level = median_level(image, lines, r, workspace.scratch);
     line.colour = colour_of_line(image, lines, r, line.width, workspace.colours);
-    if (width_slack > 1 && is_hot_column(lines, r, line)) line.length = 0;
+    if (rule.width_slack > 1 && is_hot_column(lines, r, line)) line.length = 0;
     if (line.flanks >= kLeastFlanks) continue;
     workspace.edges.length += line.length;
     workspace.edges.weighted_height += 2 * line.intensity * line.length;
+    workspace.edges.weighted_level += line.level * line.length;
   }
   for (LineFacts& line : facts) line.kept = is_stripe_like(trial, line);
   drop_lines(lines, facts);
 }
 
-template void filter_lines<std::uint8_t>(ImageView8, const DerivativeKernels&, double,
-                                         const LineFilterOptions&, double, LineFilterWorkspace&, LineSet&,
+template void filter_lines<std::uint8_t>(ImageView8, const DerivativeKernels&, const LineFilterRule&,
+                                         const LineFilterOptions&, LineFilterWorkspace&, LineSet&,
                                          std::vector<LineFacts>&);
-template void filter_lines<std::uint16_t>(ImageView16, const DerivativeKernels&, double,
-                                          const LineFilterOptions&, double, LineFilterWorkspace&, LineSet&,
+template void filter_lines<std::uint16_t>(ImageView16, const DerivativeKernels&, const LineFilterRule&,
+                                          const LineFilterOptions&, LineFilterWorkspace&, LineSet&,
                                           std::vector<LineFacts>&);
 
 }  // namespace lightstripe

@@ -29,6 +29,9 @@ struct LineFacts {
   double length = 0;          ///< px
   double width = 0;           ///< px, median
   double intensity = 0;       ///< grey levels, upper quartile
+  double level = 0;           ///< grey value of the light and what it falls on, median
+  double flatness = 0;        ///< median of the width at half height over the foot's; 0.68 on a Gaussian
+  double clipped_share = 0;   ///< of the points
   double mean_strength = 0;   ///< grey levels / px^2
   double bridged_share = 0;   ///< of the points
   double odd_share = 0;       ///< bridged or asymmetric
@@ -43,7 +46,9 @@ struct LineFacts {
 struct EdgeCrowd {
   double length = 0;           ///< px
   double weighted_height = 0;  ///< grey levels times px
+  double weighted_level = 0;   ///< grey values of the brighter sides times px
   double height() const { return length > 0 ? weighted_height / length : 0.0; }
+  double level() const { return length > 0 ? weighted_level / length : 0.0; }
 };
 
 /// Scratch memory.
@@ -58,16 +63,22 @@ struct LineFilterWorkspace {
   std::vector<LineRange> kept;
 };
 
+/// What is known of the image and of how its lines were looked for.
+struct LineFilterRule {
+  double noise = 0;      ///< grey levels
+  double brightest = 0;  ///< grey level
+  /// By how much more than max_width_ratio the measured width may differ from the kernels'; above 1 where the
+  /// line's own strength chose the scale, since glow widens the foot of a stripe, not its core.
+  double width_slack = 1;
+};
+
 /// Measures width, intensity and flags of every point, cuts the lines as said above and drops those that are
-/// no stripes for themselves: `noise` is the image's, the stripes' width follows from the kernels' sigma.
-/// `facts` gets one entry a line that is left.
-/// `width_slack`: by how much more than max_width_ratio the measured width may differ from the kernels';
-/// above 1 where the line's own strength chose the scale, since glow widens the foot of a stripe, not its
-/// core.
+/// no stripes for themselves: the stripes' width follows from the kernels' sigma. `facts` gets one entry a
+/// line that is left.
 template <class T>
-void filter_lines(ImageView<T> image, const DerivativeKernels& kernels, double noise,
-                  const LineFilterOptions& options, double width_slack, LineFilterWorkspace& workspace,
-                  LineSet& lines, std::vector<LineFacts>& facts);
+void filter_lines(ImageView<T> image, const DerivativeKernels& kernels, const LineFilterRule& rule,
+                  const LineFilterOptions& options, LineFilterWorkspace& workspace, LineSet& lines,
+                  std::vector<LineFacts>& facts);
 
 /// Removes the lines (and their facts) that are not kept.
 void drop_lines(LineSet& lines, std::vector<LineFacts>& facts);
