@@ -15,7 +15,7 @@ namespace {
 /// against the lines to be a crowd.
 constexpr double kOverEdges = 1.2, kOverBrightSides = 1.15, kManyEdges = 0.25;
 /// Times the least length: longer and more even lines are not made of edges by chance.
-constexpr double kLongAndEven = 4;
+constexpr double kLongAndEven = 2.5;
 /// Of the least length: evidence that a line needs, with and without the laser's colour.
 constexpr double kColouredEvidence = 0.4, kGreyEvidence = 0.6;
 /// Rise of the colour over the rise of the grey value: with less a line is doubtful.
