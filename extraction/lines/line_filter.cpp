@@ -267,6 +267,21 @@ bool is_flat_bar(const Trial& t, const LineFacts& line) {
          line.level < kUnclipped * t.rule.brightest;
 }
 
+/// What a codec that keeps little of the colour, or a tone curve, leaves of a line: hardly any colour, though
+/// the line is so long and even that nothing else looks like it, or as bright as the picture can be where it
+/// is dark beside it.
+bool has_lost_colour(const Trial& t, const LineFacts& line) {
+  constexpr double kLeastLeft = 0.02, kUsual = 0.2;     // of the rise of the grey value
+  constexpr double kTop = 0.93, kOverSides = 0.75;      // of the brightest level
+  constexpr double kEvident = 6, kEvidentWhenTop = 2.5;  // of min_length
+  if (!line.colour.known || line.colour.share > kUsual) return false;
+  const double evident = line.length * line.flanks * (1 - line.odd_share) /
+                         (t.options.min_length * t.full_width);
+  if (line.level > kTop * t.rule.brightest && line.intensity > kOverSides * t.rule.brightest)
+    return evident > kEvidentWhenTop;
+  return line.colour.share > kLeastLeft && evident > kEvident;
+}
+
 /// Length and width tests, which need no other line; a short line has to be the more regular.
 bool is_stripe_like(const Trial& t, const LineFacts& line) {
   // Lines of their own scale are judged by length and brightness together, later on.
@@ -342,7 +357,10 @@ void filter_lines(ImageView<T> image, const DerivativeKernels& kernels, const Li
     workspace.edges.weighted_height += 2 * line.intensity * line.length;
     workspace.edges.weighted_level += line.level * line.length;
   }
-  for (LineFacts& line : facts) line.kept = is_stripe_like(trial, line);
+  for (LineFacts& line : facts) {
+    if (has_lost_colour(trial, line)) line.colour = {};
+    line.kept = is_stripe_like(trial, line);
+  }
   drop_lines(lines, facts);
 }
 
