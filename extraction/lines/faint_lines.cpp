@@ -20,6 +20,8 @@ constexpr double kLongAndEven = 2.5;
 constexpr double kColouredEvidence = 0.4, kGreyEvidence = 0.6;
 /// Rise of the colour over the rise of the grey value: with less a line is doubtful.
 constexpr double kUsualColour = 0.2;
+/// Of the points of a line.
+constexpr double kMostlyClipped = 0.5;
 /// Of the least length, for a line that goes on where a kept one ends.
 constexpr double kGoingOn = 0.4;
 
@@ -102,7 +104,9 @@ bool Judge::is_visible(const DerivativeKernels& kernels, const LineFacts& line) 
 /// `goes_on`: the line begins where one ends that is bright enough.
 bool Judge::is_bright_enough(const DerivativeKernels& kernels, const LineFacts& line, bool goes_on) const {
   const double min_length = (goes_on ? kGoingOn : 1.0) * options.min_length;
-  const double share = line.intensity / reference.intensity;
+  // What the camera clips in the laser's colour is as bright as a line can be, whatever glows beside it.
+  const bool clipped_light = line.colour_known && line.clipped_share > kMostlyClipped;
+  const double share = clipped_light ? 1.0 : line.intensity / reference.intensity;
   const double full_width = std::max(full_width_of(kernels.sigma), 0.8 * reference.width);
   const double widths = line.length / full_width;
   // A crumb as bright as the line, but less coloured, is no part of it.

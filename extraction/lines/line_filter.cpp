@@ -268,8 +268,8 @@ bool is_flat_bar(const Trial& t, const LineFacts& line) {
 }
 
 /// What a codec that keeps little of the colour, or a tone curve, leaves of a line: hardly any colour, though
-/// the line is so long and even that nothing else looks like it, or as bright as the picture can be where it
-/// is dark beside it.
+/// the line is so long and even that nothing else looks like it, or as bright as the picture can be, with
+/// darkness or some colour beside it.
 bool has_lost_colour(const Trial& t, const LineFacts& line) {
   constexpr double kLeastLeft = 0.02, kUsual = 0.2;     // of the rise of the grey value
   constexpr double kTop = 0.93, kOverSides = 0.75;      // of the brightest level
@@ -277,9 +277,10 @@ bool has_lost_colour(const Trial& t, const LineFacts& line) {
   if (!line.colour.known || line.colour.share > kUsual) return false;
   const double evident = line.length * line.flanks * (1 - line.odd_share) /
                          (t.options.min_length * t.full_width);
-  if (line.level > kTop * t.rule.brightest && line.intensity > kOverSides * t.rule.brightest)
-    return evident > kEvidentWhenTop;
-  return line.colour.share > kLeastLeft && evident > kEvident;
+  const bool has_some = line.colour.share > kLeastLeft,
+             at_top = line.level > kTop * t.rule.brightest &&
+                      (has_some || line.intensity > kOverSides * t.rule.brightest);
+  return at_top ? evident > kEvidentWhenTop : has_some && evident > kEvident;
 }
 
 /// Length and width tests, which need no other line; a short line has to be the more regular.
