@@ -85,8 +85,8 @@ struct Judge {
   bool is_bright_enough(const DerivativeKernels& kernels, const LineFacts& line, bool goes_on) const;
 };
 
-/// In a picture full of edges a line no brighter than they are is made by the same things: printed bars are as
-/// bright as the brighter side of the edges. Laser light adds to what it falls on.
+/// In a picture full of edges a line no brighter than they are is made by the same things: printed bars are
+/// as bright as the brighter side of the edges. Laser light adds to what it falls on.
 bool Judge::is_no_edge(const DerivativeKernels& kernels, const LineFacts& line) const {
   if (line.colour_known || line.intensity > height_of_edges || line.level > level_of_edges) return true;
   return line.length * line.flanks * (1 - line.odd_share) >=
@@ -201,8 +201,7 @@ bool keep_continuations(std::span<const FilteredLines> groups, const Judge& judg
     for (std::size_t k = 0; k < group.facts->size(); ++k) {
       LineFacts& line = (*group.facts)[k];
       if (line.kept || !judge.is_visible(*group.kernels, line) ||
-          !judge.is_bright_enough(*group.kernels, line, true) ||
-          !continues_kept_line(groups, group, k))
+          !judge.is_bright_enough(*group.kernels, line, true) || !continues_kept_line(groups, group, k))
         continue;
       line.kept = found = true;
     }

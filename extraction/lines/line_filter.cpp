@@ -258,8 +258,8 @@ LineFacts facts_of(Trial& t, const LineSet& lines, const LineRange& r) {
   return facts;
 }
 
-/// Light has a round top wherever the camera does not clip it, even far out of focus (0.89). A bar with a flat
-/// one is printed or a thing in other light.
+/// Light has a round top wherever the camera does not clip it, even far out of focus (0.89). A bar with a
+/// flat one is printed or a thing in other light.
 bool is_flat_bar(const Trial& t, const LineFacts& line) {
   constexpr double kFlattest = 0.9;
   constexpr double kUnclipped = 0.9;  // of the brightest level, where a camera's range may end
@@ -271,14 +271,15 @@ bool is_flat_bar(const Trial& t, const LineFacts& line) {
 /// the line is so long and even that nothing else looks like it, or as bright as the picture can be, with
 /// darkness or some colour beside it.
 bool has_lost_colour(const Trial& t, const LineFacts& line) {
-  constexpr double kLeastLeft = 0.02, kUsual = 0.2;     // of the rise of the grey value
-  constexpr double kTop = 0.93, kOverSides = 0.75;      // of the brightest level
+  constexpr double kLeastLeft = 0.02, kUsual = 0.2;      // of the rise of the grey value
+  constexpr double kTop = 0.93, kOverSides = 0.75;       // of the brightest level
+  constexpr double kFlatTop = 0.75;                      // where the range ends; a Gaussian has 0.68
   constexpr double kEvident = 6, kEvidentWhenTop = 2.5;  // of min_length
   if (!line.colour.known || line.colour.share > kUsual) return false;
-  const double evident = line.length * line.flanks * (1 - line.odd_share) /
-                         (t.options.min_length * t.full_width);
+  const double evident =
+      line.length * line.flanks * (1 - line.odd_share) / (t.options.min_length * t.full_width);
   const bool has_some = line.colour.share > kLeastLeft,
-             at_top = line.level > kTop * t.rule.brightest &&
+             at_top = line.level > kTop * t.rule.brightest && line.flatness > kFlatTop &&
                       (has_some || line.intensity > kOverSides * t.rule.brightest);
   return at_top ? evident > kEvidentWhenTop : has_some && evident > kEvident;
 }
