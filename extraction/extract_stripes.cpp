@@ -80,6 +80,15 @@ FollowRule follow_rule(const Run<T>& run) {
   return rule;
 }
 
+/// From which grey level on the camera may have clipped. Of 8 bits all are used, but for video's range and
+/// tone curves; of 16 it is not known how many.
+template <class T>
+double range_end(const Run<T>& run) {
+  constexpr double kNearTop = 0.9, kLeastOf8Bits = 200;
+  if (run.options.polarity == Polarity::kDark) return 0;
+  return std::max(sizeof(T) == 1 ? kLeastOf8Bits : 0.0, kNearTop * run.facts.histogram.largest);
+}
+
 /// Measures and judges the lines of all scales.
 template <class T>
 void filter_groups(const Run<T>& run, double width_slack) {
@@ -88,11 +97,11 @@ void filter_groups(const Run<T>& run, double width_slack) {
   w.filtered.clear();
   w.tests.edges = {};
   w.tests.tried = w.groups.rejected;
+  const LineFilterRule rule{run.facts.noise.seen, 1.0 * run.facts.histogram.largest, range_end(run),
+                            width_slack};
   for (std::size_t g = 0; g < w.groups.count; ++g) {
     ScaleGroup& group = w.groups.all[g];
-    filter_lines(run.image, *group.kernels,
-                 {run.facts.noise.seen, 1.0 * run.facts.histogram.largest, width_slack}, run.options.lines,
-                 w.tests, group.lines, w.facts[g]);
+    filter_lines(run.image, *group.kernels, rule, run.options.lines, w.tests, group.lines, w.facts[g]);
     w.filtered.push_back({group.kernels, &group.lines, &w.facts[g]});
   }
   // Gleams with the laser off; a faint line has to be long. The range of 16-bit pixels is not known.

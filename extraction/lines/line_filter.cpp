@@ -261,10 +261,9 @@ LineFacts facts_of(Trial& t, const LineSet& lines, const LineRange& r) {
 /// Light has a round top wherever the camera does not clip it, even far out of focus (0.89). A bar with a
 /// flat one is printed or a thing in other light.
 bool is_flat_bar(const Trial& t, const LineFacts& line) {
-  constexpr double kFlattest = 0.9;
-  constexpr double kUnclipped = 0.9;  // of the brightest level, where a camera's range may end
-  return t.rule.width_slack > 1 && line.flatness > kFlattest && line.clipped_share < 0.25 &&
-         line.level < kUnclipped * t.rule.brightest;
+  constexpr double kFlattest = 0.9, kClipped = 0.25;
+  return t.rule.width_slack > 1 && line.flatness > kFlattest && line.clipped_share < kClipped &&
+         line.level < t.rule.range_end;
 }
 
 /// What a codec that keeps little of the colour, or a tone curve, leaves of a line: hardly any colour, though

@@ -67,6 +67,7 @@ struct LineFilterWorkspace {
 struct LineFilterRule {
   double noise = 0;      ///< grey levels
   double brightest = 0;  ///< grey level
+  double range_end = 0;  ///< grey level from which on the camera may have clipped; 0: dark lines, all may be
   /// By how much more than max_width_ratio the measured width may differ from the kernels'; above 1 where the
   /// line's own strength chose the scale, since glow widens the foot of a stripe, not its core.
   double width_slack = 1;

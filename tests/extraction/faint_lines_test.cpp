@@ -55,5 +55,47 @@ TEST(FaintLines, AsLongAsTheStrongOneAFaintLineNeedsNoOther) {
   EXPECT_GT(rows_found(result, 220.3, 0, 399), 390);
 }
 
+/// How much of a pixel lies between two places, with the blur of a lens.
+double between(double at, double first, double last) {
+  constexpr double kBlur = 0.8;  // px
+  return 0.5 * (std::erf((at - first) / kBlur) - std::erf((at - last) / kBlur));
+}
+
+/// White sheets on a dark table, and a line of light down the picture: on the sheets it is far brighter than
+/// they are, on the table it rises by as much as a sheet does. `laser`: 0 where it is off.
+Image8 sheets_on_a_table(double laser) {
+  Random random(5, 8);
+  Image8 image(320, 400);
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x) {
+      double sheets = 0;
+      for (const double left : {20.0, 120.0, 220.0})
+        for (const double top : {15.0, 215.0})
+          sheets += between(x - 0.05 * y, left, left + 70) * between(y, top, top + 170);
+      const double light = std::exp(-0.5 * std::pow((x - 150.3) / 2, 2));
+      const double level =
+          20 + 110 * sheets + laser * (0.55 + 0.45 * sheets) * light + 0.7 * random.gaussian();
+      image(x, y) = static_cast<std::uint8_t>(std::clamp(std::lround(level), 0L, 255L));
+    }
+  return image;
+}
+
+TEST(FaintLines, LightOnBrightThingsIsBrighterThanTheyAre) {
+  EXPECT_GT(rows_found(extract_stripes(sheets_on_a_table(110).view()), 150.3, 0, 399), 390);
+  EXPECT_TRUE(extract_stripes(sheets_on_a_table(0).view()).stripes.empty());
+}
+
+TEST(FaintLines, AFlatTopBelowTheEndOfTheRangeIsNoLight) {
+  Random random(5, 9);
+  Image8 image(320, 400);
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x) {
+      const double lamp = 220 * between(x, 280, 310) * between(y, 180, 210);
+      const double level = 35 + 110 * between(x, 100, 127) + lamp + 0.7 * random.gaussian();
+      image(x, y) = static_cast<std::uint8_t>(std::clamp(std::lround(level), 0L, 255L));
+    }
+  EXPECT_TRUE(extract_stripes(image.view()).stripes.empty());
+}
+
 }  // namespace
 }  // namespace lightstripe

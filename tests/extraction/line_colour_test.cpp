@@ -12,15 +12,15 @@
 namespace lightstripe {
 namespace {
 
-constexpr int kWidth = 60, kHeight = 200;
+constexpr int kWidth = 60, kHeight = 200, kLongHeight = 400;
 constexpr double kCentre = 30, kSigma = 2;
 
 /// A line down the picture; `rise` of its colour over the rise of its grey value from row to row.
 template <class Rise>
-Image8 coloured_line(const Rise& rise) {
-  Image8 image(kWidth, kHeight);
+Image8 coloured_line(const Rise& rise, int height = kHeight) {
+  Image8 image(kWidth, height);
   image.where.assign(image.pixels.size(), LaserPlace::kSure);
-  for (int y = 0; y < kHeight; ++y)
+  for (int y = 0; y < height; ++y)
     for (int x = 0; x < kWidth; ++x) {
       const double light = 100 * std::exp(-0.5 * std::pow((x - kCentre) / kSigma, 2));
       image(x, y) = static_cast<std::uint8_t>(std::lround(40 + light));
@@ -97,6 +97,14 @@ TEST(LineColour, ALineInOtherLightIsDroppedAndAnAstrayEndIsCutOff) {
   const auto found = extract_stripes(coloured_line([](int y) { return y < 120 ? 0.6 : 0.05; }).view());
   ASSERT_EQ(found.stripes.size(), 1U);
   EXPECT_NEAR(found.stripes[0].points.back().y, 120, 8);
+}
+
+TEST(LineColour, ALongLineOfWhichACodecLeftLittleColourStays) {
+  const auto stripes = [](double rise) {
+    return extract_stripes(coloured_line([&](int) { return rise; }, kLongHeight).view()).stripes.size();
+  };
+  EXPECT_EQ(stripes(0.05), 1U);
+  EXPECT_EQ(stripes(0.0), 0U);
 }
 
 }  // namespace
