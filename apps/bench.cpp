@@ -31,7 +31,8 @@ int run_bench_labelled(const BenchArguments& arguments, const ExtractionOptions&
   constexpr int kMostRepeats = 7, kSpecklePictures = 12;
   const auto scores = bench_labelled(arguments.labels, options, std::min(arguments.repeat, kMostRepeats));
   const std::string output = arguments.common.output.empty() ? "real_pictures.md" : arguments.common.output;
-  write_file(output, real_pictures_page(scores, bench_speckle(options, kSpecklePictures)));
+  const auto cameras = bench_other_cameras(arguments.labels, options);
+  write_file(output, real_pictures_page(scores, cameras, bench_speckle(options, kSpecklePictures)));
   say(arguments.common, "-> " + output);
   return kExitDone;
 }

@@ -40,10 +40,11 @@ struct Tally {
     missed += s.score.cover() < 0.05 ? 1 : 0;
     cover += s.score.cover();
   }
+  double found_percent() const { return lit > 0 ? 100 * cover / lit : 100.0; }
   std::string row(const std::string& set, const std::string& method) {
     return fmt::format("| {} | {} | {} of {} | {} | {:.1f} % | {} of {} | {} | {:.2f} | {:.1f} |\n", set,
-                       method, complete, lit, missed, lit > 0 ? 100 * cover / lit : 100.0, with_false,
-                       pictures, near > 0 ? fmt::format("{:.2f}", std::sqrt(squares / near)) : "",
+                       method, complete, lit, missed, found_percent(), with_false, pictures,
+                       near > 0 ? fmt::format("{:.2f}", std::sqrt(squares / near)) : "",
                        upper_median(times_ms), slowest);
   }
 };
@@ -62,6 +63,20 @@ std::string picture_table(const std::vector<MethodScore>& scores) {
         if (s.method == method && (set == "all" || s.set == set)) tally.add(s);
       if (tally.pictures > 0) text += tally.row(set, method);
     }
+  return text;
+}
+
+std::string camera_table(const std::vector<MethodScore>& cameras) {
+  std::string text =
+      "| camera | complete | missed | labelled length found | with false lines "
+      "|\n|---|---:|---:|---:|---:|\n";
+  for (const std::string& camera : names(cameras, &MethodScore::method)) {
+    Tally tally;
+    for (const MethodScore& s : cameras)
+      if (s.method == camera) tally.add(s);
+    text += fmt::format("| {} | {} of {} | {} | {:.1f} % | {} of {} |\n", camera, tally.complete, tally.lit,
+                        tally.missed, tally.found_percent(), tally.with_false, tally.pictures);
+  }
   return text;
 }
 
@@ -107,6 +122,7 @@ std::string hard_pictures(const std::vector<MethodScore>& scores) {
 }  // namespace
 
 std::string real_pictures_page(const std::vector<MethodScore>& scores,
+                               const std::vector<MethodScore>& cameras,
                                const std::vector<SpeckleScore>& speckle) {
   return R"(# Real pictures
 
@@ -120,6 +136,13 @@ The marks hold to about a pixel: rms px compares methods, it is no error of thei
 ## By set and method
 
 )" + picture_table(scores) +
+         R"(
+## As other cameras would have taken them
+
+The default method on the same pictures, changed as another camera, lens or codec would have: what hangs on the cameras that were
+marked shows here. Overexposed pictures have lost what the rows call missing; grey ones have no colour to tell the laser by.
+
+)" + camera_table(cameras) +
          R"(
 ## Speckle
 

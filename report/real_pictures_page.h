@@ -27,8 +27,10 @@ struct SpeckleScore {
   double variance_ratio = 0, smooth_variance_ratio = 0;  ///< actual over predicted
 };
 
-/// The page, markdown. The first method's pictures are those that are told one by one.
+/// The page, markdown. The first method's pictures are those that are told one by one. `cameras`: the default
+/// method on imitated pictures, each with its camera's name as method.
 std::string real_pictures_page(const std::vector<MethodScore>& scores,
+                               const std::vector<MethodScore>& cameras,
                                const std::vector<SpeckleScore>& speckle);
 
 }  // namespace lightstripe

@@ -12,6 +12,7 @@
 #include "io/images.h"
 #include "simulate/real_stripe.h"
 #include "truth/bench_references.h"
+#include "truth/other_cameras.h"
 
 namespace lightstripe {
 namespace {
@@ -79,6 +80,20 @@ std::vector<MethodScore> bench_labelled(const std::filesystem::path& folder, con
   std::vector<MethodScore> all;
   for (auto& scores : by_method) std::move(scores.begin(), scores.end(), std::back_inserter(all));
   return all;
+}
+
+std::vector<MethodScore> bench_other_cameras(const std::filesystem::path& folder,
+                                             const ExtractionOptions& options) {
+  std::vector<MethodScore> scores;
+  for (const LabelledPicture& picture : read_labelled_pictures(folder)) {
+    const RgbImage pixels = read_rgb_image(picture.file);
+    for (const OtherCamera& camera : other_cameras()) {
+      const auto found = extract_stripes(imitated(camera, pixels).view(), options);
+      scores.push_back({std::string(camera.name), picture.set, picture.file.filename().string(),
+                        score_lines(picture.lines, found.stripes)});
+    }
+  }
+  return scores;
 }
 
 std::vector<SpeckleScore> bench_speckle(const ExtractionOptions& options, int pictures) {

@@ -101,8 +101,10 @@ void write_image(const std::filesystem::path& path, ImageView8 image);
 void write_rgb_image(const std::filesystem::path& path, const std::vector<std::uint8_t>& rgb, int width,
                      int height);
 
-/// The same picture as a JPEG of quality 80.
-std::vector<std::uint8_t> encode_jpeg(const std::vector<std::uint8_t>& rgb, int width, int height);
+/// The same picture as a JPEG; quality from 1 to 100.
+constexpr int kJpegQualityOfPages = 80;
+std::vector<std::uint8_t> encode_jpeg(const std::vector<std::uint8_t>& rgb, int width, int height,
+                                      int quality = kJpegQualityOfPages);
 
 /// Files that match `pattern` (one folder, '*' and '?' in the file name; or one file) in natural order
 /// (img_2 before img_10), relative to `base` unless absolute. An Error when there is none.

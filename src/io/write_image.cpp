@@ -43,10 +43,10 @@ void write_rgb_image(const std::filesystem::path& path, const std::vector<std::u
   write_mat(path, bgr_of(rgb, width, height));
 }
 
-std::vector<std::uint8_t> encode_jpeg(const std::vector<std::uint8_t>& rgb, int width, int height) {
+std::vector<std::uint8_t> encode_jpeg(const std::vector<std::uint8_t>& rgb, int width, int height,
+                                      int quality) {
   std::vector<std::uint8_t> bytes;
-  constexpr int kQuality = 80;  // of pictures inside a page
-  opencv_codecs().encode(".jpg", bgr_of(rgb, width, height), kQuality, bytes);
+  opencv_codecs().encode(".jpg", bgr_of(rgb, width, height), quality, bytes);
   return bytes;
 }
 

@@ -86,7 +86,7 @@ std::vector<std::string> form_of(const std::string& page) {
     begin = end + 1;
     const bool table = line.starts_with("|");
     if (table && !line.starts_with("|--") && !line.starts_with("| set | method") &&
-        !line.starts_with("| contrast ") && !line.starts_with("| picture "))
+        !line.starts_with("| contrast ") && !line.starts_with("| camera ") && !line.starts_with("| picture "))
       line = "row of " + std::to_string(std::count(line.begin(), line.end(), '|'));
     if (form.empty() || form.back() != line) form.push_back(line);
   }
@@ -99,8 +99,11 @@ TEST(RealPicturesPage, InTheDocsIsOfTheFormThatTheCommandMakes) {
   hard.score.laser_px = 100;
   hard.score.covered_px = 50;
   hard.score.missed = {{50, "missed 50 px at (1, 2): faint: 6 grey levels, 6 % of the strongest stretch"}};
-  const std::string page = real_pictures_page({hard}, {{0.3, 1.6, 4, 1, 0, 0.2, 0.1, 1.1, 1.0}});
+  MethodScore grey = hard;
+  grey.method = "grey";
+  const std::string page = real_pictures_page({hard}, {grey}, {{0.3, 1.6, 4, 1, 0, 0.2, 0.1, 1.1, 1.0}});
   EXPECT_THAT(page, HasSubstr("| set | direction-guided | 0 of 1 | 0 | 50.0 % | 0 of 1 |  | 0.50 | 20.0 |"));
+  EXPECT_THAT(page, HasSubstr("| grey | 0 of 1 | 0 | 50.0 % | 0 of 1 |"));
   EXPECT_THAT(page, HasSubstr("| set/a.png | 50.0 % | 0 | missed 50 px at (1, 2): faint"));
   EXPECT_EQ(form_of(read_file(docs)), form_of(page));
 }
