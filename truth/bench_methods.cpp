@@ -130,9 +130,11 @@ void add_methods(ImageView8 image, ExtractionOptions options, std::vector<Candid
 
 void add_references(ImageView8 image, double sigma, double min_strength, Image8& target,
                     std::vector<Candidate>& candidates) {
-  const std::size_t points = steger_by_opencv(image, sigma, min_strength).size();
-  add(candidates, std::string(kOpenCvSteger), [=] { steger_by_opencv(image, sigma, min_strength); }).points =
-      points;
+  const auto kept = std::make_shared<OpenCvSteger>();
+  const std::size_t points = steger_by_opencv(image, sigma, min_strength, *kept).size();
+  add(candidates, std::string(kOpenCvSteger), [=] {
+    steger_by_opencv(image, sigma, min_strength, *kept);
+  }).points = points;
   add(candidates, "opencv-calchist", [=] { calchist_by_opencv(image); });
   add(candidates, "opencv-gaussianblur", [=, &target] { gaussianblur_by_opencv(image, sigma, target); });
   add(candidates, "memcpy", [=, &target] {

@@ -47,20 +47,22 @@ Ridge ridge_of(float xx, float xy, float yy) {
 
 }  // namespace
 
-std::vector<StripePoint> steger_by_opencv(ImageView8 image, double sigma, double min_strength) {
+const std::vector<StripePoint>& steger_by_opencv(ImageView8 image, double sigma, double min_strength,
+                                                 OpenCvSteger& kept) {
   const cv::Mat source = as_mat(image);
   const cv::Mat1f g0 = gaussian_kernel(sigma, 0), g1 = gaussian_kernel(sigma, 1),
                   g2 = gaussian_kernel(sigma, 2);
-  cv::Mat1f x, y, xx, xy, yy;
-  const auto filter = [&](cv::Mat1f& out, const cv::Mat1f& kx, const cv::Mat1f& ky) {
-    cv::sepFilter2D(source, out, CV_32F, kx, ky, cv::Point(-1, -1), 0, cv::BORDER_REPLICATE);
+  const auto filter = [&](std::size_t plane, const cv::Mat1f& kx, const cv::Mat1f& ky) {
+    Image<float>& out = kept.planes.at(plane);
+    if (out.width != image.width || out.height != image.height) out = Image<float>(image.width, image.height);
+    cv::Mat1f target(out.height, out.width, out.pixels.data());
+    cv::sepFilter2D(source, target, CV_32F, kx, ky, cv::Point(-1, -1), 0, cv::BORDER_REPLICATE);
+    return target;
   };
-  filter(x, g1, g0);
-  filter(y, g0, g1);
-  filter(xx, g2, g0);
-  filter(xy, g1, g1);
-  filter(yy, g0, g2);
-  std::vector<StripePoint> points;
+  const cv::Mat1f x = filter(0, g1, g0), y = filter(1, g0, g1), xx = filter(2, g2, g0),
+                  xy = filter(3, g1, g1), yy = filter(4, g0, g2);
+  std::vector<StripePoint>& points = kept.points;
+  points.clear();
   for (int row = 0; row < image.height; ++row) {
     for (int column = 0; column < image.width; ++column) {
       const Ridge ridge = ridge_of(xx(row, column), xy(row, column), yy(row, column));

@@ -3,6 +3,7 @@
 // What the extraction is timed against: the same work put together from OpenCV's building blocks.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "core/image.h"
@@ -10,10 +11,18 @@
 
 namespace lightstripe {
 
+/// What a caller keeps from picture to picture, as ours keep their workspace: new memory for each picture
+/// would time the machine's page faults.
+struct OpenCvSteger {
+  std::array<Image<float>, 5> planes;
+  std::vector<StripePoint> points;
+};
+
 /// Steger's test at every pixel: five cv::sepFilter2D with kernels integrated over the pixel and the
 /// eigenvalue test, in single precision. Points where the Hessian's eigenvalue of largest magnitude is below
-/// -min_strength.
-std::vector<StripePoint> steger_by_opencv(ImageView8 image, double sigma, double min_strength);
+/// -min_strength; valid until the next call with the same `kept`.
+const std::vector<StripePoint>& steger_by_opencv(ImageView8 image, double sigma, double min_strength,
+                                                 OpenCvSteger& kept);
 
 void calchist_by_opencv(ImageView8 image);
 void gaussianblur_by_opencv(ImageView8 image, double sigma, Image8& out);
