@@ -51,7 +51,7 @@ struct Tally {
 
 std::string picture_table(const std::vector<MethodScore>& scores) {
   std::string text =
-      R"(| set | method | complete | missed | labelled length found | with false lines | rms px | ms | least times faster than opencv-steger |
+      R"(| set | method | complete | missed | labelled length found | with false lines | rms px | ms | least times faster than opencv-steger-kept |
 |---|---|---:|---:|---:|---:|---:|---:|---:|
 )";
   std::vector<std::string> sets = names(scores, &MethodScore::set);

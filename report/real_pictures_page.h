@@ -15,7 +15,7 @@ struct MethodScore {
   std::string method, set, picture;
   LabelScore score;
   double median_ms = 0;
-  double steger_ms = 0;  ///< of opencv-steger on the same picture
+  double steger_ms = 0;  ///< of opencv-steger-kept on the same picture
 };
 
 /// A curved line of 480 rows under speckle, default options, over several pictures.

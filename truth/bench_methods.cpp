@@ -132,9 +132,14 @@ void add_references(ImageView8 image, double sigma, double min_strength, Image8&
                     std::vector<Candidate>& candidates) {
   const auto kept = std::make_shared<OpenCvSteger>();
   const std::size_t points = steger_by_opencv(image, sigma, min_strength, *kept).size();
-  add(candidates, std::string(kOpenCvSteger), [=] {
-    steger_by_opencv(image, sigma, min_strength, *kept);
-  }).points = points;
+  const auto add_steger = [&](std::string_view name, const std::function<void()>& work) {
+    add(candidates, std::string(name), work).points = points;
+  };
+  add_steger(kOpenCvSteger, [=] {
+    OpenCvSteger fresh;
+    steger_by_opencv(image, sigma, min_strength, fresh);
+  });
+  add_steger(kOpenCvStegerKept, [=] { steger_by_opencv(image, sigma, min_strength, *kept); });
   add(candidates, "opencv-calchist", [=] { calchist_by_opencv(image); });
   add(candidates, "opencv-gaussianblur", [=, &target] { gaussianblur_by_opencv(image, sigma, target); });
   add(candidates, "memcpy", [=, &target] {

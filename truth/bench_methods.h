@@ -14,6 +14,8 @@
 namespace lightstripe {
 
 inline constexpr std::string_view kOpenCvSteger = "opencv-steger";
+/// The same with its planes kept from run to run, as ours keep theirs.
+inline constexpr std::string_view kOpenCvStegerKept = "opencv-steger-kept";
 
 struct MethodTime {
   std::string method;

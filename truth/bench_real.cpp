@@ -56,7 +56,7 @@ std::vector<MethodScore> bench_labelled(const std::filesystem::path& folder, con
   constexpr auto kMethods = enum_names(ExtractionMethod{});
   std::vector<std::vector<MethodScore>> by_method(kMethods.size());
   ExtractionWorkspace workspace;
-  OpenCvSteger steger;
+  OpenCvSteger kept;
   ExtractionResult result;
   for (const LabelledPicture& picture : pictures) {
     const Image8 image = read_image(picture.file);
@@ -70,7 +70,7 @@ std::vector<MethodScore> bench_labelled(const std::filesystem::path& folder, con
       if (m == 0) {
         explain_score(picture.lines, result.stripes, image.view(), result.noise, score.score);
         const double sigma = result.sigma > 0 ? std::min(result.sigma, 4.0) : 2.0;
-        steger_ms = median_ms(repeat, [&] { steger_by_opencv(image.view(), sigma, 1.0, steger); });
+        steger_ms = median_ms(repeat, [&] { steger_by_opencv(image.view(), sigma, 1.0, kept); });
       }
       score.median_ms =
           median_ms(repeat, [&] { extract_stripes(image.view(), of_method, workspace, result); });

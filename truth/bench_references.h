@@ -11,8 +11,7 @@
 
 namespace lightstripe {
 
-/// What a caller keeps from picture to picture, as ours keep their workspace: new memory for each picture
-/// would time the machine's page faults.
+/// What a caller keeps from picture to picture, as ours keep their workspace.
 struct OpenCvSteger {
   std::array<Image<float>, 5> planes;
   std::vector<StripePoint> points;
@@ -20,7 +19,8 @@ struct OpenCvSteger {
 
 /// Steger's test at every pixel: five cv::sepFilter2D with kernels integrated over the pixel and the
 /// eigenvalue test, in single precision. Points where the Hessian's eigenvalue of largest magnitude is below
-/// -min_strength; valid until the next call with the same `kept`.
+/// -min_strength; valid until the next call with the same `kept`. With new planes for each picture a good
+/// part of the time is the machine's page faults: 8 ms of 20 on one, 36 of 49 on another.
 const std::vector<StripePoint>& steger_by_opencv(ImageView8 image, double sigma, double min_strength,
                                                  OpenCvSteger& kept);
 
