@@ -80,15 +80,6 @@ FollowRule follow_rule(const Run<T>& run) {
   return rule;
 }
 
-/// From which grey level on the camera may have clipped. Of 8 bits all are used, but for video's range and
-/// tone curves; of 16 it is not known how many.
-template <class T>
-double range_end(const Run<T>& run) {
-  constexpr double kNearTop = 0.9, kLeastOf8Bits = 200;
-  if (run.options.polarity == Polarity::kDark) return 0;
-  return std::max(sizeof(T) == 1 ? kLeastOf8Bits : 0.0, kNearTop * run.facts.histogram.largest);
-}
-
 /// Measures and judges the lines of all scales.
 template <class T>
 void filter_groups(const Run<T>& run, double width_slack) {
@@ -97,8 +88,8 @@ void filter_groups(const Run<T>& run, double width_slack) {
   w.filtered.clear();
   w.tests.edges = {};
   w.tests.tried = w.groups.rejected;
-  const LineFilterRule rule{run.facts.noise.seen, 1.0 * run.facts.histogram.largest, range_end(run),
-                            width_slack};
+  const double brightest = run.facts.histogram.largest;
+  const LineFilterRule rule{run.facts.noise.seen, brightest, width_slack};
   for (std::size_t g = 0; g < w.groups.count; ++g) {
     ScaleGroup& group = w.groups.all[g];
     filter_lines(run.image, *group.kernels, rule, run.options.lines, w.tests, group.lines, w.facts[g]);
@@ -106,8 +97,11 @@ void filter_groups(const Run<T>& run, double width_slack) {
   }
   // Gleams with the laser off; a faint line has to be long. The range of 16-bit pixels is not known.
   const double least_height = width_slack > 1 && sizeof(T) == 1 ? 20.0 : 0.0;
-  drop_faint_lines(w.filtered, run.options.lines, {run.facts.noise.seen, width_slack, least_height},
-                   w.tests.edges);
+  // Of video's range, tone curves and 16 bits it is not known where the camera clips. Dark lines never are.
+  constexpr double kNearTop = 0.9;
+  const double range_end = run.options.polarity == Polarity::kDark ? 0.0 : kNearTop * brightest;
+  drop_faint_lines(w.filtered, run.options.lines,
+                   {run.facts.noise.seen, width_slack, least_height, range_end}, w.tests.edges);
 }
 
 /// All lines at the one scale `result.sigma`.

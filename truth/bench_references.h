@@ -19,8 +19,8 @@ struct OpenCvSteger {
 
 /// Steger's test at every pixel: five cv::sepFilter2D with kernels integrated over the pixel and the
 /// eigenvalue test, in single precision. Points where the Hessian's eigenvalue of largest magnitude is below
-/// -min_strength; valid until the next call with the same `kept`. With new planes for each picture a good
-/// part of the time is the machine's page faults: 8 ms of 20 on one, 36 of 49 on another.
+/// -min_strength; valid until the next call with the same `kept`. With new planes for each picture
+/// most of the time can be page faults: 12 ms became 46 on one machine.
 const std::vector<StripePoint>& steger_by_opencv(ImageView8 image, double sigma, double min_strength,
                                                  OpenCvSteger& kept);
 

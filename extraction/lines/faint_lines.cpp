@@ -85,12 +85,18 @@ struct Judge {
   bool is_bright_enough(const DerivativeKernels& kernels, const LineFacts& line, bool goes_on) const;
 };
 
+/// Light has a round top wherever the camera does not clip it, even far out of focus (flatness 0.89). A bar
+/// with a flat one between edges is printed, or a thing in other light.
+bool is_flat_bar(const LineFacts& line, double range_end) {
+  constexpr double kFlattest = 0.9, kClipped = 0.25;
+  return line.flatness > kFlattest && line.clipped_share < kClipped && line.level < range_end;
+}
+
 /// In a picture full of edges a line no brighter than they are is made by the same things: printed bars are
 /// as bright as the brighter side of the edges. Laser light adds to what it falls on.
 bool Judge::is_no_edge(const DerivativeKernels& kernels, const LineFacts& line) const {
   if (line.colour_known || line.intensity > height_of_edges || line.level > level_of_edges) return true;
-  return line.length * line.flanks * (1 - line.odd_share) >=
-         kLongAndEven * options.min_length * full_width_of(kernels.sigma);
+  return line.even_length() >= kLongAndEven * options.min_length * full_width_of(kernels.sigma);
 }
 
 bool Judge::is_visible(const DerivativeKernels& kernels, const LineFacts& line) const {
@@ -208,16 +214,32 @@ bool keep_continuations(std::span<const FilteredLines> groups, const Judge& judg
   return found;
 }
 
+double length_of(std::span<const FilteredLines> groups) {
+  double length = 0;
+  for (const FilteredLines& group : groups)
+    for (const LineFacts& line : *group.facts) length += line.length;
+  return length;
+}
+
+/// A narrow bar may be a drawn line, unless edges tell that things are lit.
+void drop_flat_bars(std::span<const FilteredLines> groups, bool full_of_edges, double range_end) {
+  constexpr double kWide = 12;  // px
+  for (const FilteredLines& group : groups) {
+    for (LineFacts& line : *group.facts)
+      line.kept = !is_flat_bar(line, range_end) || (!full_of_edges && line.width < kWide);
+    drop_lines(*group.lines, *group.facts);
+  }
+}
+
 }  // namespace
 
 void drop_faint_lines(std::span<const FilteredLines> groups, const LineFilterOptions& options,
                       const FaintLineRule& rule, const EdgeCrowd& edges) {
+  const bool full_of_edges = rule.width_slack > 1 && edges.length > kManyEdges * length_of(groups);
+  if (rule.width_slack > 1) drop_flat_bars(groups, full_of_edges, rule.range_end);
   Judge judge{options, rule, strong_stripe(groups, options)};
   judge.reference.intensity = std::max(judge.reference.intensity, rule.least_height);
-  double length = 0;
-  for (const FilteredLines& group : groups)
-    for (const LineFacts& line : *group.facts) length += line.length;
-  if (rule.width_slack > 1 && edges.length > kManyEdges * length) {
+  if (full_of_edges) {
     judge.height_of_edges = kOverEdges * edges.height();
     judge.level_of_edges = kOverBrightSides * edges.level();
   }

@@ -26,6 +26,7 @@ struct FaintLineRule {
   double noise = 0;         ///< grey levels, of the image
   double width_slack = 1;   ///< as in filter_lines; above 1 the evidence for each line is judged as well
   double least_height = 0;  ///< grey levels: the strongest line counts as at least so bright
+  double range_end = 0;     ///< grey level from which on the camera may have clipped
 };
 
 /// Drops the lines that are too faint against the strong ones of the same image, whatever their scale. A line

@@ -258,14 +258,6 @@ LineFacts facts_of(Trial& t, const LineSet& lines, const LineRange& r) {
   return facts;
 }
 
-/// Light has a round top wherever the camera does not clip it, even far out of focus (0.89). A bar with a
-/// flat one is printed or a thing in other light.
-bool is_flat_bar(const Trial& t, const LineFacts& line) {
-  constexpr double kFlattest = 0.9, kClipped = 0.25;
-  return t.rule.width_slack > 1 && line.flatness > kFlattest && line.clipped_share < kClipped &&
-         line.level < t.rule.range_end;
-}
-
 /// What a codec that keeps little of the colour, or a tone curve, leaves of a line: hardly any colour, though
 /// the line is so long and even that nothing else looks like it, or as bright as the picture can be, with
 /// darkness or some colour beside it.
@@ -275,8 +267,7 @@ bool has_lost_colour(const Trial& t, const LineFacts& line) {
   constexpr double kFlatTop = 0.75;                      // where the range ends; a Gaussian has 0.68
   constexpr double kEvident = 6, kEvidentWhenTop = 2.5;  // of min_length
   if (!line.colour.known || line.colour.share > kUsual) return false;
-  const double evident =
-      line.length * line.flanks * (1 - line.odd_share) / (t.options.min_length * t.full_width);
+  const double evident = line.even_length() / (t.options.min_length * t.full_width);
   const bool has_some = line.colour.share > kLeastLeft,
              at_top = line.level > kTop * t.rule.brightest && line.flatness > kFlatTop &&
                       (has_some || line.intensity > kOverSides * t.rule.brightest);
@@ -288,7 +279,7 @@ bool is_stripe_like(const Trial& t, const LineFacts& line) {
   // Lines of their own scale are judged by length and brightness together, later on.
   const double least = t.rule.width_slack > 1 && line.colour_known ? kShortest : 1.0;
   if (line.length < least * t.options.min_length * t.full_width || line.bridged_share > 0.5) return false;
-  if (line.flanks < kLeastFlanks || line.coloured_share < 0.5 || is_flat_bar(t, line)) return false;
+  if (line.flanks < kLeastFlanks || line.coloured_share < 0.5) return false;
   if (line.colour.known && line.colour.share < kLeastColour) return false;
   const double ratio = std::max(line.width, 1e-3) / t.full_width;
   const double most =

@@ -40,6 +40,9 @@ struct LineFacts {
   double coloured_share = 1;  ///< of the points, where the laser's colour is
   LineColour colour;          ///< of the light that makes the line
   bool kept = true;           ///< verdict so far
+
+  /// Px: what crumbs and edges lack in evenness counts as length that they have not.
+  double even_length() const { return length * flanks * (1 - odd_share); }
 };
 
 /// The edges met among the lines, which drop on one side only.
@@ -67,7 +70,6 @@ struct LineFilterWorkspace {
 struct LineFilterRule {
   double noise = 0;      ///< grey levels
   double brightest = 0;  ///< grey level
-  double range_end = 0;  ///< grey level from which on the camera may have clipped; 0: dark lines, all may be
   /// By how much more than max_width_ratio the measured width may differ from the kernels'; above 1 where the
   /// line's own strength chose the scale, since glow widens the foot of a stripe, not its core.
   double width_slack = 1;

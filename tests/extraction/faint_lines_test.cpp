@@ -55,15 +55,11 @@ TEST(FaintLines, AsLongAsTheStrongOneAFaintLineNeedsNoOther) {
   EXPECT_GT(rows_found(result, 220.3, 0, 399), 390);
 }
 
-/// How much of a pixel lies between two places, with the blur of a lens.
-double between(double at, double first, double last) {
-  constexpr double kBlur = 0.8;  // px
-  return 0.5 * (std::erf((at - first) / kBlur) - std::erf((at - last) / kBlur));
-}
+/// Edges of 110 grey levels, whose brighter sides are at 130.
+constexpr EdgeCrowd kManyEdges{2000, 2000 * 110, 2000 * 130};
 
-/// Whether one line of these facts stays in a grey picture full of edges of 110 grey levels, whose brighter
-/// sides are at 130.
-bool stays_among_edges(const LineFacts& facts) {
+/// Whether one line of these facts stays in a grey picture with these edges.
+bool stays(const LineFacts& facts, const EdgeCrowd& edges) {
   const DerivativeKernels kernels = make_derivative_kernels(2);
   LineSet lines;
   lines.points.resize(static_cast<std::size_t>(facts.length));
@@ -71,7 +67,7 @@ bool stays_among_edges(const LineFacts& facts) {
   std::vector<LineFacts> all = {facts};
   all[0].mean_strength = facts.intensity * kernels.matched_strength();
   const FilteredLines group{&kernels, &lines, &all};
-  drop_faint_lines({&group, 1}, {}, {1, 2, 20}, {2000, 2000 * 110, 2000 * 130});
+  drop_faint_lines({&group, 1}, {}, {1, 2, 20, 220}, edges);
   return !lines.lines.empty();
 }
 
@@ -82,28 +78,31 @@ TEST(FaintLines, AmongEdgesALineIsHigherOrBrighterThanTheyAreOrLongAndEven) {
   line.intensity = 115;
   line.flanks = 0.9;
   line.level = 140;
-  EXPECT_FALSE(stays_among_edges(line));
+  EXPECT_FALSE(stays(line, kManyEdges));
   LineFacts high = line, on_paper = line, lengthy = line, uneven = line;
   high.intensity = 140;
   on_paper.level = 240;
   lengthy.length = uneven.length = 200;
   uneven.odd_share = 0.6;
-  EXPECT_TRUE(stays_among_edges(high));
-  EXPECT_TRUE(stays_among_edges(on_paper));
-  EXPECT_TRUE(stays_among_edges(lengthy));
-  EXPECT_FALSE(stays_among_edges(uneven));
+  EXPECT_TRUE(stays(high, kManyEdges));
+  EXPECT_TRUE(stays(on_paper, kManyEdges));
+  EXPECT_TRUE(stays(lengthy, kManyEdges));
+  EXPECT_FALSE(stays(uneven, kManyEdges));
 }
 
-TEST(FaintLines, AFlatTopBelowTheEndOfTheRangeIsNoLight) {
-  Random random(5, 9);
-  Image8 image(320, 400);
-  for (int y = 0; y < image.height; ++y)
-    for (int x = 0; x < image.width; ++x) {
-      const double lamp = 220 * between(x, 280, 310) * between(y, 180, 210);
-      const double level = 35 + 110 * between(x, 100, 127) + lamp + 0.7 * random.gaussian();
-      image(x, y) = static_cast<std::uint8_t>(std::clamp(std::lround(level), 0L, 255L));
-    }
-  EXPECT_TRUE(extract_stripes(image.view()).stripes.empty());
+TEST(FaintLines, ABarWithAFlatTopBelowTheEndOfTheRangeIsNoLight) {
+  LineFacts bar;
+  bar.length = 200;
+  bar.width = 7;
+  bar.intensity = 140;
+  bar.level = 160;
+  bar.flatness = 0.95;
+  EXPECT_FALSE(stays(bar, kManyEdges));
+  EXPECT_TRUE(stays(bar, {}));  // it may be drawn
+  bar.width = 14;
+  EXPECT_FALSE(stays(bar, {}));
+  bar.clipped_share = 1;
+  EXPECT_TRUE(stays(bar, kManyEdges));
 }
 
 }  // namespace
