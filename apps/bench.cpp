@@ -73,7 +73,7 @@ void add_bench_command(CLI::App& app, Command& run) {
   auto* labels =
       command->add_option("--labels", arguments->labels,
                           "folder of labelled pictures (<set>/<picture>.json): writes a page of how the "
-                          "methods do on them and on speckle");
+                          "methods do on them, as other cameras would have taken them too, and on speckle");
   labels->excludes(images);
   add_common_options(*command, arguments->common,
                      "table of times (default: bench.csv; page: real_pictures.md)");
