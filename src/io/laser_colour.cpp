@@ -270,7 +270,7 @@ LaserVote vote_for_laser(const ColourPlanes& bgr) {
   constexpr double kClippedShare = 0.05, kUnclipped = 0.01;  // of the line's pixels
   // A texture is told along a line, not by a dozen rows.
   constexpr double kTextured = 0.5, kTexturedScore = 10 * kLeastScore;  // of the laser's top
-  constexpr double kTexturedTop = 50;  // grey levels; less colour is no better seen in the excess
+  constexpr double kTexturedTop = 30;  // grey levels; less colour is no better seen in the excess
   ColourPlanes small = bgr;
   const int halves = std::max(bgr[0].cols, bgr[0].rows) > kLargest ? 2 : 1;
   if (halves == 2)
