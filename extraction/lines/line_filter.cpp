@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "extraction/follow/bridge.h"
+#include "extraction/follow/direction_guided_ridge.h"
 #include "extraction/image/background.h"
 #include "extraction/kernels/width_rule.h"
 #include "extraction/lines/line_measure.h"
