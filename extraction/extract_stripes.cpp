@@ -97,7 +97,7 @@ void filter_groups(const Run<T>& run, double width_slack) {
   }
   // Gleams with the laser off; a faint line has to be long. The range of 16-bit pixels is not known.
   const double least_height = width_slack > 1 && sizeof(T) == 1 ? 20.0 : 0.0;
-  // Of video's range, tone curves and 16 bits it is not known where the camera clips. Dark lines never are.
+  // Of video's range, tone curves and 16 bits it is not known where the camera clips. Dark lines may be flat.
   constexpr double kNearTop = 0.9;
   const double range_end = run.options.polarity == Polarity::kDark ? 0.0 : kNearTop * brightest;
   drop_faint_lines(w.filtered, run.options.lines,

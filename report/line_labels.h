@@ -46,6 +46,7 @@ struct LabelScore {
   bool has_laser() const { return laser_px > 0; }
   double cover() const { return has_laser() ? covered_px / laser_px : 1.0; }
   bool complete() const { return cover() >= 0.95; }
+  bool missed_all() const { return cover() < 0.05; }
   bool has_false_lines() const {
     return false_points > 8 && static_cast<double>(false_points) > 0.02 * static_cast<double>(points);
   }

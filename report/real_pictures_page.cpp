@@ -37,7 +37,7 @@ struct Tally {
     if (!s.score.has_laser()) return;
     ++lit;
     complete += s.score.complete() ? 1 : 0;
-    missed += s.score.cover() < 0.05 ? 1 : 0;
+    missed += s.score.missed_all() ? 1 : 0;
     cover += s.score.cover();
   }
   double found_percent() const { return lit > 0 ? 100 * cover / lit : 100.0; }

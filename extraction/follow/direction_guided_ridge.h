@@ -3,6 +3,7 @@
 // Tests single places of an image for the ridge of a line.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -18,6 +19,17 @@ namespace lightstripe {
 
 /// Nearest whole number (a pixel's column or row) of a coordinate of at least -1e6; faster than lround.
 inline int nearest_pixel(double coordinate) { return static_cast<int>(coordinate + 1000000.5) - 1000000; }
+
+struct NearestPixel {
+  int x, y;
+};
+
+/// The image's pixel nearest to a place, which may lie beside the image.
+template <class T>
+NearestPixel nearest_inside(ImageView<T> image, double x, double y) {
+  return {std::clamp(nearest_pixel(x), 0, image.width - 1),
+          std::clamp(nearest_pixel(y), 0, image.height - 1)};
+}
 
 /// Unit vector along the line in the sense of following.
 struct Direction {

@@ -14,8 +14,7 @@ template <class T>
 bool is_clipped(ImageView<T> image, std::span<const StripePoint> points, double level) {
   std::size_t clipped = 0;
   for (const StripePoint& p : points) {
-    const int x = std::clamp(static_cast<int>(p.x + 0.5), 0, image.width - 1),
-              y = std::clamp(static_cast<int>(p.y + 0.5), 0, image.height - 1);
+    const auto [x, y] = nearest_inside(image, p.x, p.y);
     clipped += image(x, y) >= level ? 1U : 0U;
   }
   return 4 * clipped > points.size();
@@ -29,8 +28,7 @@ bool is_edge(ImageView<T> image, std::span<const StripePoint> points, double sig
   const std::size_t step = std::max<std::size_t>(1, points.size() / 24);
   std::size_t looked_at = 0, one_sided = 0;
   const auto grey = [&](const StripePoint& p, double aside) {
-    const int x = std::clamp(nearest_pixel(p.x + aside * p.normal_x), 0, image.width - 1),
-              y = std::clamp(nearest_pixel(p.y + aside * p.normal_y), 0, image.height - 1);
+    const auto [x, y] = nearest_inside(image, p.x + aside * p.normal_x, p.y + aside * p.normal_y);
     return static_cast<double>(image(x, y));
   };
   for (std::size_t i = 0; i < points.size(); i += step) {

@@ -18,8 +18,6 @@ constexpr double kOverEdges = 1.2, kOverBrightSides = 1.15, kManyEdges = 0.25;
 constexpr double kLongAndEven = 2.5;
 /// Of the least length: evidence that a line needs, with and without the laser's colour.
 constexpr double kColouredEvidence = 0.4, kGreyEvidence = 0.6;
-/// Rise of the colour over the rise of the grey value: with less a line is doubtful.
-constexpr double kUsualColour = 0.2;
 /// Of the points of a line.
 constexpr double kMostlyClipped = 0.5;
 /// Of the least length, for a line that goes on where a kept one ends.

@@ -32,9 +32,8 @@ constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
 
 template <class T>
 int rise_at(ImageView<T> image, double x, double y) {
-  const int column = std::clamp(nearest_pixel(x), 0, image.width - 1),
-            row = std::clamp(nearest_pixel(y), 0, image.height - 1);
-  return image.rise[row * image.stride + column];
+  const NearestPixel at = nearest_inside(image, x, y);
+  return image.rise[at.y * image.stride + at.x];
 }
 
 /// Rise of the colour at one point, or on both rims of the line, over the mean of both sides, grey levels;
@@ -93,8 +92,8 @@ void place_points(ImageView<T> image, const LineSet& lines, const LineRange& ran
                   ColourWorkspace& w, std::vector<std::uint8_t>& place) {
   for (std::size_t i = range.begin; i < range.end; ++i) {
     const StripePoint& p = lines.points[i];
-    place[i] = image.laser_colour(std::clamp(static_cast<int>(p.x + 0.5), 0, image.width - 1),
-                                  std::clamp(static_cast<int>(p.y + 0.5), 0, image.height - 1));
+    const NearestPixel at = nearest_inside(image, p.x, p.y);
+    place[i] = image.laser_colour(at.x, at.y);
   }
   if (image.rise == nullptr) return;
   const LineColour line = look_at_line(image, lines, range, width, 1, w);

@@ -20,6 +20,9 @@ struct LineColour {
   double share = 1;    ///< median of that rise over the rise of the grey value
 };
 
+/// Rise of the laser's colour over the rise of the grey value: with less a line is doubtful.
+constexpr double kUsualColour = 0.2;
+
 /// Scratch memory.
 struct ColourWorkspace {
   std::vector<float> rises, shares;  ///< of the points of one line; NaN where they are clipped

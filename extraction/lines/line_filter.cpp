@@ -195,13 +195,19 @@ double typical_intensity(Trial& t, const LineSet& lines, const LineRange& r) {
   return ranked_value(t.w.scratch, t.w.scratch.size() * 3 / 4);
 }
 
+/// Median over the line's points, bridged or not, of what `value` gives for the i-th.
+template <class Value>
+double sampled_median(const LineRange& r, std::vector<float>& scratch, const Value& value) {
+  scratch.clear();
+  for (std::size_t i = r.begin; i < r.end; i += sample_step(r)) scratch.push_back(value(i));
+  return ranked_median(scratch);
+}
+
 /// Median width at half height over that of the foot: how flat the top is.
 double flatness(Trial& t, const LineSet& lines, const LineRange& r) {
-  t.w.scratch.clear();
-  for (std::size_t i = r.begin; i < r.end; i += sample_step(r))
-    t.w.scratch.push_back(lines.half_level_widths[i] /
-                          std::max(1.0F, static_cast<float>(lines.points[i].width)));
-  return ranked_median(t.w.scratch);
+  return sampled_median(r, t.w.scratch, [&](std::size_t i) {
+    return lines.half_level_widths[i] / std::max(1.0F, static_cast<float>(lines.points[i].width));
+  });
 }
 
 /// Median over the line of the smaller over the larger drop from the ridge to both sides.
@@ -220,13 +226,10 @@ double flank_ratio(Trial& t, const LineSet& lines, const LineRange& r) {
 template <class T>
 double median_level(ImageView<T> image, const LineSet& lines, const LineRange& r,
                     std::vector<float>& scratch) {
-  scratch.clear();
-  for (std::size_t i = r.begin; i < r.end; i += sample_step(r)) {
-    const StripePoint& p = lines.points[i];
-    scratch.push_back(static_cast<float>(image(std::clamp(nearest_pixel(p.x), 0, image.width - 1),
-                                               std::clamp(nearest_pixel(p.y), 0, image.height - 1))));
-  }
-  return ranked_median(scratch);
+  return sampled_median(r, scratch, [&](std::size_t i) {
+    const NearestPixel at = nearest_inside(image, lines.points[i].x, lines.points[i].y);
+    return static_cast<float>(image(at.x, at.y));
+  });
 }
 
 LineFacts facts_of(Trial& t, const LineSet& lines, const LineRange& r) {
@@ -237,11 +240,12 @@ LineFacts facts_of(Trial& t, const LineSet& lines, const LineRange& r) {
     const double dx = next.x - p.x, dy = next.y - p.y;
     facts.length += std::sqrt(dx * dx + dy * dy);
   }
-  std::size_t bridged = 0, odd = 0, coloured = 0;
+  std::size_t bridged = 0, odd = 0, clipped = 0, coloured = 0;
   for (std::size_t i = r.begin; i < r.end; ++i) {
     const StripePoint& p = lines.points[i];
     bridged += (p.flags & kStripeBridged) != 0 ? 1U : 0U;
     odd += (p.flags & (kStripeBridged | kStripeAsymmetric)) != 0 ? 1U : 0U;
+    clipped += (p.flags & kStripeSaturated) != 0 ? 1U : 0U;
     coloured += has_colour(t, i) ? 1U : 0U;
     facts.mean_strength += p.strength;
   }
@@ -249,9 +253,9 @@ LineFacts facts_of(Trial& t, const LineSet& lines, const LineRange& r) {
   facts.mean_strength /= count;
   facts.bridged_share = static_cast<double>(bridged) / count;
   facts.odd_share = static_cast<double>(odd) / count;
+  facts.clipped_share = static_cast<double>(clipped) / count;
   facts.coloured_share = static_cast<double>(coloured) / count;
   facts.colour_known = t.colour_known;
-  facts.clipped_share = flagged_share(lines, r, kStripeSaturated);
   facts.flatness = flatness(t, lines, r);
   facts.flanks = flank_ratio(t, lines, r);
   facts.width = median_width(t, lines, r);
@@ -263,11 +267,11 @@ LineFacts facts_of(Trial& t, const LineSet& lines, const LineRange& r) {
 /// the line is so long and even that nothing else looks like it, or as bright as the picture can be, with
 /// darkness or some colour beside it.
 bool has_lost_colour(const Trial& t, const LineFacts& line) {
-  constexpr double kLeastLeft = 0.02, kUsual = 0.2;      // of the rise of the grey value
+  constexpr double kLeastLeft = 0.02;                    // of the rise of the grey value
   constexpr double kTop = 0.93, kOverSides = 0.75;       // of the brightest level
   constexpr double kFlatTop = 0.75;                      // where the range ends; a Gaussian has 0.68
   constexpr double kEvident = 6, kEvidentWhenTop = 2.5;  // of min_length
-  if (!line.colour.known || line.colour.share > kUsual) return false;
+  if (!line.colour.known || line.colour.share > kUsualColour) return false;
   const double evident = line.even_length() / (t.options.min_length * t.full_width);
   const bool has_some = line.colour.share > kLeastLeft,
              at_top = line.level > kTop * t.rule.brightest && line.flatness > kFlatTop &&

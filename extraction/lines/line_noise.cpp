@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "core/robust.h"
+#include "extraction/follow/direction_guided_ridge.h"
 #include "extraction/follow/line_point.h"
 #include "extraction/kernels/width_rule.h"
 #include "extraction/lines/cross_profile.h"
@@ -26,8 +27,7 @@ double fall_of(const StripePoint& p) {
 /// line.
 template <class T>
 double ridge_grey(ImageView<T> image, const StripePoint& p, double fall) {
-  const int x = std::clamp(static_cast<int>(p.x + 0.5), 0, image.width - 1);
-  const int y = std::clamp(static_cast<int>(p.y + 0.5), 0, image.height - 1);
+  const auto [x, y] = nearest_inside(image, p.x, p.y);
   const double across = (x - p.x) * p.normal_x + (y - p.y) * p.normal_y;
   return image(x, y) + fall * across * across;
 }

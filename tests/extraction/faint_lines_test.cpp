@@ -72,12 +72,7 @@ bool stays(const LineFacts& facts, const EdgeCrowd& edges) {
 }
 
 TEST(FaintLines, AmongEdgesALineIsHigherOrBrighterThanTheyAreOrLongAndEven) {
-  LineFacts line;
-  line.length = 60;
-  line.width = 7;
-  line.intensity = 115;
-  line.flanks = 0.9;
-  line.level = 140;
+  const LineFacts line{.length = 60, .width = 7, .intensity = 115, .level = 140, .flanks = 0.9, .colour = {}};
   EXPECT_FALSE(stays(line, kManyEdges));
   LineFacts high = line, on_paper = line, lengthy = line, uneven = line;
   high.intensity = 140;
@@ -91,12 +86,7 @@ TEST(FaintLines, AmongEdgesALineIsHigherOrBrighterThanTheyAreOrLongAndEven) {
 }
 
 TEST(FaintLines, ABarWithAFlatTopBelowTheEndOfTheRangeIsNoLight) {
-  LineFacts bar;
-  bar.length = 200;
-  bar.width = 7;
-  bar.intensity = 140;
-  bar.level = 160;
-  bar.flatness = 0.95;
+  LineFacts bar{.length = 200, .width = 7, .intensity = 140, .level = 160, .flatness = 0.95, .colour = {}};
   EXPECT_FALSE(stays(bar, kManyEdges));
   EXPECT_TRUE(stays(bar, {}));  // it may be drawn
   bar.width = 14;
