@@ -19,20 +19,19 @@ namespace {
 namespace fs = std::filesystem;
 
 void guard(const ReconstructJob& job) {
-  const std::vector<fs::path> named{job.scan_file, job.rig_file, job.scan.folder / job.scan.travel_file,
-                                    job.scan.folder / job.scan.poses_file};
-  std::vector<fs::path> inputs = files_of(job.scan), outputs = job.other_outputs, partial;
-  inputs.insert(inputs.end(), named.begin(), named.end());
+  std::vector<fs::path> tables = tables_of(job.scan), outputs = job.other_outputs, partial;
+  tables.insert(tables.end(), {job.scan_file, job.rig_file});
   for (const fs::path& output : {job.cloud, job.profiles}) {
     if (output.empty()) continue;
     outputs.push_back(output);
     outputs.push_back(output.string() + ".run.yaml");
     partial.push_back(ResumableFile::partial_of(output));
   }
-  guard_outputs(inputs, outputs);
-  // What a killed run left holds points and no picture: to go on, not every picture's file is looked up.
+  // A night's task starts again and again: it neither lists nor looks up all pictures where it need not.
+  if (any_exists(outputs)) guard_marked_outputs(pictures_of(job.scan), outputs);
+  // What a killed run left holds points and no picture.
   partial.insert(partial.end(), outputs.begin(), outputs.end());
-  guard_outputs(named, partial);
+  guard_outputs(tables, partial);
 }
 
 /// The scan itself.

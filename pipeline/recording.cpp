@@ -3,6 +3,7 @@
 #include "pipeline/recording.h"
 
 #include <fmt/format.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <cmath>
@@ -295,11 +296,9 @@ std::string Recording::picture_identity(std::int64_t frame, int sensor) const {
   if (name.empty()) return name;
   const auto s = static_cast<std::size_t>(sensor);
   const std::filesystem::path file = sources_[s]->file(map_.index_of(s, frame));
-  std::error_code error;
-  const auto size = std::filesystem::file_size(file, error);
-  if (error) return name;
-  const auto changed = std::filesystem::last_write_time(file, error);
-  return fmt::format("{} {} {}", name, size, error ? 0 : changed.time_since_epoch().count());
+  struct stat status {};  // one question, a file server may be far away
+  if (::stat(file.c_str(), &status) != 0) return name;
+  return fmt::format("{} {} {}.{:09}", name, status.st_size, status.st_mtim.tv_sec, status.st_mtim.tv_nsec);
 }
 
 }  // namespace lightstripe

@@ -1,7 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The lightstripe authors
 // SPDX-License-Identifier: Apache-2.0
 // Files by pattern, in natural order.
+#include <dirent.h>
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cerrno>
+#include <memory>
 #include <system_error>
 
 #include "core/error.h"
@@ -57,18 +62,30 @@ std::string_view magnitude_at(std::string_view text, std::size_t& at, bool negat
   return text.substr(start, at - start);
 }
 
+bool is_folder(const fs::path& folder, const dirent& entry) {
+  if (entry.d_type != DT_UNKNOWN && entry.d_type != DT_LNK) return entry.d_type == DT_DIR;
+  std::error_code ignored;
+  return fs::is_directory(folder / entry.d_name, ignored);
+}
+
+/// By readdir: std::filesystem makes a path of each entry, which takes half the time of a long listing.
 std::vector<std::string> matching_names(const fs::path& folder, const std::string& pattern) {
+  const auto fail = [&folder] {
+    throw Error(folder.string(), fmt::format("cannot be read ({})", std::generic_category().message(errno)),
+                "check its permissions");
+  };
+  const std::unique_ptr<DIR, int (*)(DIR*)> listing(::opendir(folder.empty() ? "." : folder.c_str()),
+                                                    ::closedir);
+  if (!listing) fail();
   std::vector<std::string> found;
-  std::error_code error;
-  fs::directory_iterator entry(folder.empty() ? fs::path(".") : folder, error);
-  for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
-    const std::string name = entry->path().filename().string();
+  errno = 0;
+  while (const dirent* entry = ::readdir(listing.get())) {
+    const std::string_view name(entry->d_name);
     const bool hidden = name.front() == '.' && pattern.front() != '.';
-    std::error_code ignored;
-    if (!hidden && matches(pattern, name) && !entry->is_directory(ignored)) found.push_back(name);
+    if (!hidden && matches(pattern, name) && !is_folder(folder, *entry)) found.emplace_back(name);
+    errno = 0;
   }
-  if (error)
-    throw Error(folder.string(), "cannot be read (" + error.message() + ")", "check its permissions");
+  if (errno != 0) fail();
   return found;
 }
 

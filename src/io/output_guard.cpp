@@ -40,24 +40,20 @@ std::optional<Identity> identity_of(const fs::path& path) {
   return error ? path.string() : resolved.string();
 }
 
-/// Which inputs may be one of the outputs, so that a file server is not asked about each of a million
-/// pictures: any where an output exists already, else only one of the same name, which does not exist either.
+/// Which inputs may be one of the outputs: any where an output exists already, else only one of the same
+/// name, which does not exist either.
 class InputsToCompare {
  public:
-  explicit InputsToCompare(const std::vector<fs::path>& outputs) {
-    for (const fs::path& output : outputs) {
-      if (output.empty()) continue;
-      std::error_code none;
-      exists_ = exists_ || fs::exists(fs::symlink_status(output, none));
-      names_.insert(output.filename().string());
-    }
+  explicit InputsToCompare(const std::vector<fs::path>& outputs) : exists_(any_exists(outputs)) {
+    for (const fs::path& output : outputs)
+      if (!output.empty()) names_.insert(output.filename().string());
   }
   bool operator()(const fs::path& input) const {
     return exists_ || names_.contains(input.filename().string());
   }
 
  private:
-  bool exists_ = false;
+  bool exists_;
   std::set<std::string> names_;
 };
 
@@ -91,6 +87,13 @@ bool is_hand_written(const fs::path& path) {
 }
 
 }  // namespace
+
+bool any_exists(const std::vector<fs::path>& outputs) {
+  std::error_code none;
+  return std::any_of(outputs.begin(), outputs.end(), [&](const fs::path& output) {
+    return !output.empty() && fs::exists(fs::symlink_status(output, none));
+  });
+}
 
 void guard_marked_outputs(const std::vector<fs::path>& inputs, const std::vector<fs::path>& outputs) {
   std::map<Identity, fs::path> read, written;
@@ -140,12 +143,23 @@ std::vector<fs::path> files_of(const Session& session) {
   return files;
 }
 
-std::vector<fs::path> files_of(const Scan& scan) {
+std::vector<fs::path> tables_of(const Scan& scan) {
   std::vector<fs::path> files{scan.folder / scan.rig};
-  for (const auto& [sensor, pattern] : scan.frames) add_pattern(scan.folder, pattern, files);
-  for (const auto& [sensor, pattern] : scan.background.of_sensor) add_pattern(scan.folder, pattern, files);
   if (!scan.travel_file.empty()) files.push_back(scan.folder / scan.travel_file);
   if (!scan.poses_file.empty()) files.push_back(scan.folder / scan.poses_file);
+  return files;
+}
+
+std::vector<fs::path> pictures_of(const Scan& scan) {
+  std::vector<fs::path> files;
+  for (const auto& [sensor, pattern] : scan.frames) add_pattern(scan.folder, pattern, files);
+  for (const auto& [sensor, pattern] : scan.background.of_sensor) add_pattern(scan.folder, pattern, files);
+  return files;
+}
+
+std::vector<fs::path> files_of(const Scan& scan) {
+  std::vector<fs::path> files = tables_of(scan), pictures = pictures_of(scan);
+  files.insert(files.end(), pictures.begin(), pictures.end());
   return files;
 }
 

@@ -26,4 +26,11 @@ void guard_marked_outputs(const std::vector<std::filesystem::path>& inputs,
 std::vector<std::filesystem::path> files_of(const Session& session);
 std::vector<std::filesystem::path> files_of(const Scan& scan);
 
+/// The two halves of the latter: rig, travel and poses; and the pictures, which may be a million.
+std::vector<std::filesystem::path> tables_of(const Scan& scan);
+std::vector<std::filesystem::path> pictures_of(const Scan& scan);
+
+/// Links count, wherever they lead. Without any such output none can be a picture, which exists.
+bool any_exists(const std::vector<std::filesystem::path>& outputs);
+
 }  // namespace lightstripe

@@ -68,7 +68,8 @@ while [ "$killed" -lt "$kills" ] && [ -n "$(squeue -h -n night)" ]; do
   kill -KILL "${running[RANDOM % ${#running[@]}]}" 2>/dev/null && killed=$((killed + 1))
   [ "$killed" != 1 ] || "$slurm" restart-node "$work/slurm"
 done
-for _ in $(seq 3000); do [ -n "$(squeue -h)" ] || break; sleep 0.2; done
+# Each question takes Slurm and this node 50 ms: seldom where the rate is looked at.
+for _ in $(seq 3000); do [ -n "$(squeue -h)" ] || break; sleep "$((frames / 50000)).2"; done
 "$night" -o cloud.ply --status >status.txt || die "not complete: $(cat status.txt cloud.night/log/*)"
 cat status.txt
 cmp cloud.ply whole.ply && cmp cloud.csv whole.csv || die "other bytes than one run"
