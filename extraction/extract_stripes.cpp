@@ -104,6 +104,10 @@ void filter_groups(const Run<T>& run, double width_slack) {
                    {run.facts.noise.seen, width_slack, least_height, range_end}, w.tests.edges);
 }
 
+/// The foot of a glowing stripe is up to twice as wide as the core that chose the scale, and a width that a
+/// person gives is a guess.
+constexpr double kWidthSlack = 2;
+
 /// All lines at the one scale `result.sigma`.
 template <class T>
 void find_lines(const Run<T>& run) {
@@ -134,11 +138,8 @@ void find_lines(const Run<T>& run) {
                                lines);
       break;
   }
-  filter_groups(run, 1);
+  filter_groups(run, run.options.method == ExtractionMethod::kDirectionGuided ? kWidthSlack : 1.0);
 }
-
-/// The foot of a glowing stripe is up to twice as wide as the core that chose the scale.
-constexpr double kWidthSlack = 2;
 
 /// Each line at its own scale; `result.sigma` becomes that of the longest one.
 template <class T>

@@ -30,8 +30,8 @@ void guard(const ReconstructJob& job) {
   // A night's task starts again and again: it neither lists nor looks up all pictures where it need not.
   if (any_exists(outputs)) guard_marked_outputs(pictures_of(job.scan), outputs);
   // What a killed run left holds points and no picture.
-  partial.insert(partial.end(), outputs.begin(), outputs.end());
-  guard_outputs(tables, partial);
+  outputs.insert(outputs.end(), partial.begin(), partial.end());
+  guard_outputs(tables, outputs);
 }
 
 /// The scan itself.

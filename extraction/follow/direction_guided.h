@@ -10,6 +10,7 @@
 #include "extraction/follow/direction_guided_step.h"
 #include "extraction/follow/exclusion_mask.h"
 #include "extraction/follow/line_seeds.h"
+#include "extraction/follow/patience.h"
 #include "extraction/follow/ridge_limits.h"
 #include "extraction/kernels/kernels.h"
 #include "extraction/lines/line_set.h"
@@ -24,6 +25,7 @@ struct DirectionGuidedWorkspace {
   Image<T> binned;
   std::vector<T> border_window;
   std::vector<StripePoint> backward;
+  SearchPatience patience;
 };
 
 /// Where following begins and when it may stop.
@@ -32,7 +34,7 @@ struct FollowRule {
   bool has_start = false;
   double start_x = 0, start_y = 0;  ///< px: the first line begins at the ridge nearest to this place
   int stop_after = 0;               ///< lines of at least `least_length` px; 0 = never
-  double least_length = 0;
+  double least_length = 0;          ///< px; what is shorter is a crumb
 };
 
 /// Follows the line whose ridge is near pixel (x, y) to both ends, marks it in the workspace's mask and
@@ -42,7 +44,7 @@ bool follow_line_at(const RidgeFinder<T>& finder, int x, int y, MaskLabels& labe
                     DirectionGuidedWorkspace<T>& workspace, LineSet& lines);
 
 /// Appends the lines of `image` to `lines` (x, y, normal, strength and flags are set), brightest first points
-/// first.
+/// first, until a crowd of crumbs says that no more will come (patience.h).
 template <class T>
 void follow_lines(ImageView<T> image, const DerivativeKernels& kernels, const RidgeLimits& limits,
                   const FollowRule& rule, DirectionGuidedWorkspace<T>& workspace, LineSet& lines);

@@ -54,8 +54,8 @@ class LineFinder {
     return {groups_.all[line.group].lines.points.data() + line.range.begin, line.range.size()};
   }
   void add_futile(const Followed& line) {
-    w_.patience.add_futile(search_.tuning.futile_line +
-                           length(line) / groups_.all[line.group].kernels->sigma);
+    following_.patience.add_futile(search_.tuning.futile_line +
+                                   length(line) / groups_.all[line.group].kernels->sigma);
   }
   double height(const Followed& line) const {
     return mean_strength(points_of(line)) / groups_.all[line.group].kernels->matched_strength();
@@ -113,7 +113,7 @@ void LineFinder<T>::begin() {
                         static_cast<std::size_t>(search_.image.height / 4 + 1),
                     0);
   following_.mask.reset(search_.image.width, search_.image.height, 1);
-  w_.patience.reset(search_.image.width, search_.image.height, search_.tuning);
+  following_.patience.reset(search_.image.width, search_.image.height, search_.tuning);
   groups_.count = groups_.rejected = 0;
   labels_ = {};
   strongest_ = heaviest_ = 0;
@@ -291,7 +291,7 @@ void LineFinder<T>::keep_or_reject(const Followed& line, int seed_level) {
   if (is_edge(search_.image, points_of(line), sigma) || length(line) < least)
     add_futile(line);
   else if (length(line) * height(line) >= search_.tuning.evident_line * least * strongest_)
-    w_.patience.add_line(points_of(line), least / search_.least_widths);
+    following_.patience.add_line(points_of(line), least / search_.least_widths);
   block(line, search_.tuning.blocked_by_line, 0);
   strongest_ = std::max(strongest_, height(line) * std::min(1.0, length(line) / (3 * least)));
 }
@@ -333,12 +333,12 @@ void LineFinder<T>::try_seed(const ScaleSeed& seed) {
   tried(seed.level, seed.x, seed.y) = 1;
   const RungRange rungs = rungs_of(seed.level);
   const auto ridge = best_scale(w_.pyramid, kernels_, seed.x, seed.y, rungs.first, rungs.last);
-  if (!ridge) return w_.patience.add_futile(search_.tuning.futile_seed);
+  if (!ridge) return following_.patience.add_futile(search_.tuning.futile_seed);
   std::optional<Followed> line;
   // What stands out may be a single grain, which has a scale of its own.
   if (grained_sigma_ > ridge->sigma) line = follow(group_for(grained_sigma_, 0.01), seed.x, seed.y);
   if (!line) line = follow(group_for(ridge->sigma, search_.tuning.shared_scale), seed.x, seed.y);
-  if (!line) return w_.patience.add_futile(search_.tuning.futile_seed);
+  if (!line) return following_.patience.add_futile(search_.tuning.futile_seed);
   if (is_hopeless(*line)) return reject(*line, seed.level);
   Followed own = at_own_scale(*line);
   // Only a line that has grown tells its grain.
@@ -351,9 +351,9 @@ template <class T>
 void LineFinder<T>::try_seeds(bool beside_ends) {
   for (const ScaleSeed& seed : w_.seeds) {
     if (!is_untried(seed)) continue;
-    if (labels_.current >= ExclusionMask::kLastLabel || w_.patience.is_over() || has_enough()) return;
+    if (labels_.current >= ExclusionMask::kLastLabel || following_.patience.is_over() || has_enough()) return;
     if (seed.rank * search_.brightest < 255 * search_.tuning.faintest_seed * strongest_) return;
-    if (beside_ends && !w_.patience.is_beside_end(seed.x, seed.y)) continue;
+    if (beside_ends && !following_.patience.is_beside_end(seed.x, seed.y)) continue;
     try_seed(seed);
   }
 }
@@ -369,11 +369,11 @@ void LineFinder<T>::run() {
     groups_.all[group_for(grained_sigma_, 0.01)].limits.grain = grain_;
     try_seeds(false);
   }
-  if (!w_.patience.is_over()) return;
-  w_.patience.look_beside_ends();
+  if (!following_.patience.is_over()) return;
+  following_.patience.look_beside_ends();
   // What is found has ends of its own.
-  for (std::size_t before = 0; before < w_.patience.lines() && !w_.patience.is_over();) {
-    before = w_.patience.lines();
+  for (std::size_t before = 0; before < following_.patience.lines() && !following_.patience.is_over();) {
+    before = following_.patience.lines();
     try_seeds(true);
   }
 }

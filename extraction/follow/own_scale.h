@@ -10,7 +10,6 @@
 
 #include "extraction/follow/direction_guided.h"
 #include "extraction/follow/follow_tuning.h"
-#include "extraction/follow/patience.h"
 #include "extraction/follow/scale_ladder.h"
 #include "extraction/follow/scale_seeds.h"
 #include "extraction/lines/line_set.h"
@@ -52,7 +51,6 @@ struct OwnScaleWorkspace {
   std::array<std::vector<std::uint8_t>, ImagePyramid<T>::kMostLevels> tried;
   /// Cells of 4 x 4 pixels beside lines that were followed; bit k: no seed of level k is tried there.
   std::vector<std::uint8_t> blocked;
-  SearchPatience patience;
   std::vector<StripePoint> binned_points;
   /// Of a line that is taken back for another try.
   std::vector<StripePoint> lifted_points;

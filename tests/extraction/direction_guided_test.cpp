@@ -81,5 +81,31 @@ TEST_F(FollowLines, NothingBelowTheLevelBegins) {
   EXPECT_LT(farthest(lines, 0, 20), 0.05);
 }
 
+TEST_F(FollowLines, ACrowdOfCrumbsEndsTheSearch) {
+  constexpr int kApart = 14, kRowsApart = 8, kLong = 9;
+  int dashes = 0;
+  for (int y = 112; y + 4 < kHeight; y += kRowsApart)
+    for (int x = 4; x + kLong < kWidth; x += kApart, ++dashes)
+      for (int k = 0; k < kLong * 5; ++k) {
+        const int aside = k / kLong - 2;
+        image(x + k % kLong, y + aside) += static_cast<std::uint8_t>(60 * std::exp(-aside * aside / 4.0));
+      }
+  ASSERT_GT(dashes, 70);
+  const LineSet lines = follow();
+  ASSERT_GE(lines.lines.size(), 2U);
+  EXPECT_LT(farthest(lines, 0, 20), 0.05);
+  EXPECT_LT(lines.lines.size(), 20U);
+}
+
+TEST_F(FollowLines, NothingBeginsWhereTheLasersColourIsNot) {
+  image.where.assign(static_cast<std::size_t>(kWidth) * kHeight, LaserPlace::kNone);
+  for (int y = 0; y < kHeight; ++y)
+    for (int x = 0; x < kWidth; ++x)
+      if (y > line_at(x, 45)) image.where[static_cast<std::size_t>(y * kWidth + x)] = LaserPlace::kSure;
+  const LineSet lines = follow();
+  ASSERT_EQ(lines.lines.size(), 1U);
+  EXPECT_LT(farthest(lines, 0, 70), 0.05);
+}
+
 }  // namespace
 }  // namespace lightstripe

@@ -225,7 +225,7 @@ def test_the_page_about_the_library_runs_as_it_stands(scan, tmp_path, monkeypatc
 
 
 @pytest.mark.parametrize("true_width", [4, 6, 10])
-def test_a_width_up_to_twice_the_true_one_costs_little_and_half_of_it_the_line(true_width):
+def test_a_width_up_to_twice_the_true_one_costs_little_and_sigma_tells_what_half_of_it_costs(true_width):
     # A bar with soft edges and the noise of a good camera; 0.005 px is what that noise leaves at the true width.
     rows, columns = np.mgrid[0:200, 0:300]
     across = rows - (100.3 + 0.04 * columns)
@@ -236,7 +236,10 @@ def test_a_width_up_to_twice_the_true_one_costs_little_and_half_of_it_the_line(t
         (points,) = lightstripe.extract(image, stripe_width=share * true_width).stripes
         points = points[(points["x"] > 10) & (points["x"] < 290)]
         assert np.std(points["y"] - 0.04 * points["x"]) < 0.015, share
-    assert lightstripe.extract(image, stripe_width=0.3 * true_width).stripes == []
+    for share in (0.3, 0.5):  # too fine for the bar: at a third of its width most are not found
+        for points in lightstripe.extract(image, stripe_width=share * true_width).stripes:
+            errors = points["y"] - 100.3 - 0.04 * points["x"]
+            assert np.sqrt(np.mean(errors**2)) < 1.5 * np.sqrt(np.mean(points["sigma_px"] ** 2)), share
 
 
 def test_the_jobs_give_what_the_commands_write(scan, tmp_path):
