@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
 
 #include "extraction/follow/line_looks.h"
 #include "extraction/image/binned_image.h"
@@ -102,27 +103,41 @@ bool enough_lines(const FollowRule& rule, const LineSet& lines) {
   return count >= rule.stop_after;
 }
 
+/// Lines from the seeds, the brightest first, as long as there is hope.
+template <class T>
+struct SeedSearch {
+  const RidgeFinder<T>& finder;
+  const FollowRule& rule;
+  MaskLabels& labels;
+  DirectionGuidedWorkspace<T>& w;
+  LineSet& lines;
+  FollowTuning tuning;
+  double strongest = 0;  ///< mean strength of the strongest line, short ones counting less
+
+  void run();
+
+ private:
+  void try_seeds(bool beside_ends);
+  void tell_patience(bool followed);
+};
+
 /// What the last line, or a place where none begins, says of the search.
 template <class T>
-void tell_patience(const RidgeFinder<T>& finder, const FollowRule& rule, const FollowTuning& tuning,
-                   bool followed, const LineSet& lines, double& heaviest, SearchPatience& patience) {
-  if (!followed) return patience.add_futile(tuning.futile_seed);
+void SeedSearch<T>::tell_patience(bool followed) {
+  if (!followed) return w.patience.add_futile(tuning.futile_seed);
   const LineRange& r = lines.lines.back();
   const std::span<const StripePoint> points(lines.points.data() + r.begin, r.size());
   const double sigma = finder.kernels.sigma, length = static_cast<double>(r.size()),
                weight = length * mean_strength(points);
   if (length < rule.least_length || is_edge(finder.image, points, sigma))
-    return patience.add_futile(tuning.futile_line + length / sigma);
-  heaviest = std::max(heaviest, weight / std::max(length, 3 * rule.least_length));
-  if (weight >= tuning.evident_line * rule.least_length * heaviest)
-    patience.add_line(points, full_width_of(sigma));
+    return w.patience.add_futile(tuning.futile_line + length / sigma);
+  strongest = std::max(strongest, weight / std::max(length, 3 * rule.least_length));
+  if (weight >= tuning.evident_line * rule.least_length * strongest)
+    w.patience.add_line(points, full_width_of(sigma));
 }
 
-/// Tries the seeds in their order, as long as there is hope.
 template <class T>
-void try_seeds(const RidgeFinder<T>& finder, const FollowRule& rule, bool beside_ends, double& heaviest,
-               MaskLabels& labels, DirectionGuidedWorkspace<T>& w, LineSet& lines) {
-  constexpr FollowTuning kTuning;
+void SeedSearch<T>::try_seeds(bool beside_ends) {
   for (const LineSeed& seed : w.seeds.sorted) {
     if (labels.current >= ExclusionMask::kLastLabel || w.patience.is_over()) return;
     if (w.mask(seed.x, seed.y) != ExclusionMask::kFree ||
@@ -130,8 +145,22 @@ void try_seeds(const RidgeFinder<T>& finder, const FollowRule& rule, bool beside
       continue;
     if (beside_ends && !w.patience.is_beside_end(seed.x, seed.y)) continue;
     const bool followed = try_seed(finder, seed.x, seed.y, labels, w, lines);
-    tell_patience(finder, rule, kTuning, followed, lines, heaviest, w.patience);
+    tell_patience(followed);
     if (followed && enough_lines(rule, lines)) return;
+  }
+}
+
+template <class T>
+void SeedSearch<T>::run() {
+  w.patience.reset(finder.image.width, finder.image.height, tuning);
+  try_seeds(false);
+  if (!w.patience.is_over()) return;
+  w.patience.look_beside_ends();
+  // What is found has ends of its own.
+  for (std::size_t before = 0;
+       before < w.patience.lines() && !w.patience.is_over() && !enough_lines(rule, lines);) {
+    before = w.patience.lines();
+    try_seeds(true);
   }
 }
 
@@ -161,17 +190,7 @@ void follow_lines(ImageView<T> image, const DerivativeKernels& kernels, const Ri
   if (rule.has_start) follow_from_hint(finder, rule, labels, workspace, lines);
   if (enough_lines(rule, lines)) return;
   look_for_seeds(image, kernels.sigma, limits, rule.brightest, workspace);
-  SearchPatience& patience = workspace.patience;
-  patience.reset(image.width, image.height, {});
-  double heaviest = 0;
-  try_seeds(finder, rule, false, heaviest, labels, workspace, lines);
-  if (!patience.is_over()) return;
-  patience.look_beside_ends();
-  // What is found has ends of its own.
-  for (std::size_t before = 0; before < patience.lines() && !patience.is_over();) {
-    before = patience.lines();
-    try_seeds(finder, rule, true, heaviest, labels, workspace, lines);
-  }
+  SeedSearch<T>{finder, rule, labels, workspace, lines, {}}.run();
 }
 
 template bool follow_line_at<std::uint8_t>(const RidgeFinder<std::uint8_t>&, int, int, MaskLabels&,
