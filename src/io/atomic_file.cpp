@@ -12,6 +12,7 @@
 #include <atomic>
 #include <cerrno>
 #include <chrono>
+#include <optional>
 #include <string>
 #include <system_error>
 #include <thread>
@@ -74,14 +75,20 @@ void make_folder(const fs::path& folder, const fs::path& path) {
   }
 }
 
-/// A new empty file beside `path`; hidden, so that no pattern over the folder sees it.
-fs::path create_beside(const fs::path& path) {
+/// A new empty file beside `path`; hidden, so that no pattern over the folder sees it. A signal may come at
+/// any time: the name is known to its handler before the file is there, and no other process has it.
+fs::path create_beside(const fs::path& path, std::optional<TemporaryName>& name) {
+  constexpr int kTries = 1000;
   for (int attempt = 0;; ++attempt) {
+    const auto now = std::chrono::steady_clock::now().time_since_epoch().count();
     fs::path temporary = path.parent_path() / fmt::format(".{}.tmp-{}-{}{}", path.stem().string(), ::getpid(),
-                                                          attempt, path.extension().string());
+                                                          now, path.extension().string());
+    name.emplace(temporary);
     const Descriptor created(::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
     if (created.get() >= 0) return temporary;
-    if (errno != EEXIST || attempt == 10000) cannot_write(path, errno);
+    const int why = errno;
+    name.reset();
+    if (why != EEXIST || attempt == kTries) cannot_write(path, why);
   }
 }
 
@@ -134,8 +141,7 @@ AtomicFile::AtomicFile(const fs::path& path) : path_(followed(path)) {
     return;
   }
   make_folder(path_.parent_path(), path_);
-  temporary_ = create_beside(path_);
-  name_.emplace(temporary_);
+  temporary_ = create_beside(path_, name_);
 }
 
 AtomicFile::~AtomicFile() {
