@@ -138,6 +138,7 @@ void SeedSearch<T>::tell_patience(bool followed) {
 
 template <class T>
 void SeedSearch<T>::try_seeds(bool beside_ends) {
+  if (enough_lines(rule, lines)) return;
   for (const LineSeed& seed : w.seeds.sorted) {
     if (labels.current >= ExclusionMask::kLastLabel || w.patience.is_over()) return;
     if (w.mask(seed.x, seed.y) != ExclusionMask::kFree ||
@@ -154,14 +155,7 @@ template <class T>
 void SeedSearch<T>::run() {
   w.patience.reset(finder.image.width, finder.image.height, tuning);
   try_seeds(false);
-  if (!w.patience.is_over()) return;
-  w.patience.look_beside_ends();
-  // What is found has ends of its own.
-  for (std::size_t before = 0;
-       before < w.patience.lines() && !w.patience.is_over() && !enough_lines(rule, lines);) {
-    before = w.patience.lines();
-    try_seeds(true);
-  }
+  w.patience.try_beside_ends([this] { try_seeds(true); });
 }
 
 }  // namespace

@@ -369,13 +369,7 @@ void LineFinder<T>::run() {
     groups_.all[group_for(grained_sigma_, 0.01)].limits.grain = grain_;
     try_seeds(false);
   }
-  if (!following_.patience.is_over()) return;
-  following_.patience.look_beside_ends();
-  // What is found has ends of its own.
-  for (std::size_t before = 0; before < following_.patience.lines() && !following_.patience.is_over();) {
-    before = following_.patience.lines();
-    try_seeds(true);
-  }
+  following_.patience.try_beside_ends([this] { try_seeds(true); });
 }
 
 }  // namespace

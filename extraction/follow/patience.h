@@ -27,6 +27,16 @@ class SearchPatience {
   bool is_over() const { return futile_ > most(); }
   /// From here on lines begin beside the ends of other ones only, and that is tried for a while.
   void look_beside_ends() { futile_ = most() - beside_ends_; }
+  /// Does so where the search is over, and again as long as that finds lines, which have ends of their own.
+  template <class TrySeeds>
+  void try_beside_ends(const TrySeeds& try_seeds) {
+    if (!is_over()) return;
+    look_beside_ends();
+    for (std::size_t before = 0; before < lines() && !is_over();) {
+      before = lines();
+      try_seeds();
+    }
+  }
   /// Whether a line that begins at (x, y) px may be the rest of one that was found.
   bool is_beside_end(int x, int y) const;
   std::size_t lines() const { return ends_.size() / 2; }
