@@ -3,33 +3,43 @@
 // Less scatter by the neighbours along the line, without bending it.
 #pragma once
 
-#include <cstddef>
+#include <array>
 #include <vector>
 
 #include "extraction/lines/line_set.h"
-#include "extraction/lines/local_fit.h"
 
 namespace lightstripe {
 
 /// Scratch memory.
 struct SmoothingWorkspace {
-  struct Estimate {
-    double x = 0, y = 0;
-    double variance = 1;  ///< against one point's own
-    double bend = 0;      ///< squared bias that the wider window may have, likewise
-    bool growing = true;  ///< no window was too wide yet
+  /// Every few points of a stretch one that moves; the others move as the nodes beside them.
+  struct Node {
+    double x = 0, y = 0, normal_x = 1, normal_y = 0;
+    double weight = 0;    ///< 1 / px^2: what the points around it tell
+    double aside = 0;     ///< px along the normal: the estimate
+    double variance = 0;  ///< px^2, of the estimate
   };
-  std::vector<Estimate> current, wider;
-  std::vector<double> misfit;  ///< running sums of squared differences over their expectation
-  std::vector<int> telling;    ///< running count of those differences
-  std::vector<LocalFitPoint> places;
+  /// How much the bend changes from one node to the next: a third difference across the line.
+  struct Change {
+    std::array<double, 4> factors{};  ///< of four nodes' `aside`
+    double seen = 0;                  ///< px, of the points as they are
+    double variance = 0;              ///< px^2: how large it is expected to be
+    double square = 0;                ///< px^2: how large it turns out to be
+  };
+  std::vector<Node> nodes;
+  std::vector<Change> changes;
+  std::vector<std::array<double, 4>> factor, inverse;  ///< bands of symmetric matrices
+  std::vector<float> sigmas;
 };
 
-/// Each point moves to the least-squares parabola through its neighbours along the line. The window grows by
-/// doubling as long as the wider parabola differs from the narrower one by no more than the points' own
-/// correlated scatter explains (Lepski's rule: Lepski, Mammen, Spokoiny, Ann. Statist. 25, 1997; the
-/// differences pooled over the window): far along a straight line, hardly at all in a bend. Gaps and long
-/// bridges end a window. sigma_px falls accordingly; it and LineRange::shared_px must be known.
+/// Each point moves across its line onto a curve whose bend changes as little, and at as few places, as the
+/// points allow: third differences of the curve are Gaussian with a variance of their own at every place, and
+/// the variances are those that make the points likeliest (automatic relevance determination: Tipping, J.
+/// Mach. Learn. Res. 1, 2001, by expectation maximisation; the same curves as by trend filtering: Kim, Koh,
+/// Boyd, Gorinevsky, SIAM Rev. 51, 2009). Straight stretches and arcs become far surer, bends that change
+/// hardly, corners not at all. Errors count as correlated over LineRange::shared_px, which must be known as
+/// sigma_px must; sigma_px falls to that of the curve. Gaps and long bridges end a stretch, and points near
+/// its ends that are clearly less sure than the line stay as they are.
 void smooth_along_lines(LineSet& lines, SmoothingWorkspace& workspace);
 
 }  // namespace lightstripe
