@@ -87,7 +87,7 @@ void add_live_command(CLI::App& app, Command& run) {
       ->check(CLI::Range(0, 1000));
   command->add_flag("--quiet", arguments->quiet, "no line about the state on stderr");
   add_live_options(*command, job.max_frames, job.max_seconds, job.travel);
-  add_field_options<ExtractionOptions>(*command, "extraction.", arguments->extraction);
+  add_field_options(*command, "extraction.", arguments->extraction, scan_extraction());
   command->callback([arguments, &run] { run = [arguments] { return run_live(*arguments); }; });
 }
 

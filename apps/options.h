@@ -52,8 +52,9 @@ void add_field_options(CLI::App& app, const std::string& prefix, const std::vect
 /// --extraction.stripe-width. The same field list reads the YAML files, so that no name or default is written
 /// twice.
 template <HasFields T>
-void add_field_options(CLI::App& app, const std::string& prefix, Overrides& overrides) {
-  add_field_options(app, prefix, list_fields(T{}), overrides);
+void add_field_options(CLI::App& app, const std::string& prefix, Overrides& overrides,
+                       const T& defaults = T{}) {
+  add_field_options(app, prefix, list_fields(defaults), overrides);
 }
 
 template <HasFields T>

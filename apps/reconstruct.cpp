@@ -163,7 +163,7 @@ void add_reconstruct_command(CLI::App& app, Command& run) {
                    "seconds between the places where a run can be resumed [1]")
       ->check(CLI::Range(0.0, 3600.0));
   add_product_options(*command, *arguments);
-  add_field_options<ExtractionOptions>(*command, "extraction.", arguments->extraction);
+  add_field_options(*command, "extraction.", arguments->extraction, scan_extraction());
   command->callback([arguments, &run] { run = [arguments] { return run_reconstruct(*arguments); }; });
 }
 

@@ -42,12 +42,12 @@ Level run(double noise, ExtractionWorkspace& workspace) {
   for (int trial = 0; trial < kTrials; ++trial) {
     const Image8 image = scenes::figure5_stripe(
         noise, Random(static_cast<std::uint64_t>(trial), static_cast<std::uint64_t>(1000 * noise)));
-    options.smoothing = false;
+    options.smoothing = Smoothing::kNever;
     extract_stripes(image.view(), options, workspace, result);
     level.plain += squared_errors(result);
     level.lines += static_cast<int>(result.stripes.size());
     for (const Stripe& s : result.stripes) points += static_cast<double>(s.points.size());
-    options.smoothing = true;
+    options.smoothing = Smoothing::kAlways;
     extract_stripes(image.view(), options, workspace, result);
     level.smooth += squared_errors(result);
   }

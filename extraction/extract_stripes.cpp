@@ -243,7 +243,10 @@ void finish_lines(const Run<T>& run, ScaleGroup& group) {
   if (run.options.curvature_correction && has_ridges(run.options.method))
     correct_curvature_bias(kernels, group.lines, w.bends);
   find_spot_errors(group.lines, w.values);
-  if (run.options.smoothing) smooth_along_lines(group.lines, w.smoothing);
+  const bool has_grain = w.errors.common.grain_px > 0;
+  if (run.options.smoothing == Smoothing::kAlways ||
+      (run.options.smoothing == Smoothing::kInGrain && has_grain))
+    smooth_along_lines(group.lines, w.smoothing);
   add_systematic_errors(group.lines);
   // Last: neither bends nor smoothing may take a bias for scatter.
   add_asymmetry(run.image, kernels, group.lines, w.asymmetry);

@@ -31,6 +31,13 @@ constexpr std::array<EnumName<Polarity>, 2> enum_names(Polarity) {
   return {{{Polarity::kBright, "bright"}, {Polarity::kDark, "dark"}}};
 }
 
+/// Whether points move onto a curve through their neighbours along the line.
+enum class Smoothing { kNever, kInGrain, kAlways };
+
+constexpr std::array<EnumName<Smoothing>, 3> enum_names(Smoothing) {
+  return {{{Smoothing::kNever, "false"}, {Smoothing::kInGrain, "auto"}, {Smoothing::kAlways, "true"}}};
+}
+
 struct ExtractionOptions {
   ExtractionMethod method = ExtractionMethod::kDirectionGuided;
   Polarity polarity = Polarity::kBright;
@@ -45,8 +52,8 @@ struct ExtractionOptions {
   int max_lines = 0;                   ///< only the longest lines; 0 = all
   bool curvature_correction = true;    ///< undo the kernels' drift to the inner side of bends
   bool track = false;                  ///< in sequences: look near the lines of an earlier frame first
-  bool smoothing = false;              ///< local quadratic fit along the lines
-  LineFilterOptions lines;             ///< what a line has to be like
+  Smoothing smoothing = Smoothing::kNever;  ///< a curve whose bend changes little, along the lines
+  LineFilterOptions lines;                  ///< what a line has to be like
   /// No option of files: the light lies on a printed pattern, which varies it along the line as coarse grain
   /// would.
   bool on_pattern = false;
@@ -71,8 +78,17 @@ void visit_fields(V&& v, ExtractionOptions& o) {
     "sequences: look near an earlier frame's lines and coarsely over the rest; where a line is lost "
     "everywhere");
   v("smoothing", o.smoothing,
-    "smooth along the lines: a local quadratic fit, its reach chosen from the curvature");
+    "false | auto | true: points move onto a curve along their line, whose bend changes as little as they "
+    "allow; auto: where the light has grain");
   v("lines", o.lines);
+}
+
+/// Where scans and live profiles begin. Their neighbours share errors after smoothing, which a calibration,
+/// that weighs many points, would have to know; a profile is looked at as it is.
+inline ExtractionOptions scan_extraction() {
+  ExtractionOptions options;
+  options.smoothing = Smoothing::kInGrain;
+  return options;
 }
 
 }  // namespace lightstripe

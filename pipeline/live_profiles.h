@@ -20,7 +20,7 @@ struct LiveJob {
   std::string source;
   Rig rig;
   int sensor = 0;
-  ExtractionOptions extraction;
+  ExtractionOptions extraction = scan_extraction();
   Channel channel = Channel::kAuto;
   std::int64_t max_frames = 0;  ///< 0: until the source ends or a stop
   double max_seconds = 0;       ///< 0: likewise

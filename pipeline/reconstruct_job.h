@@ -27,7 +27,7 @@ struct ReconstructJob {
   std::filesystem::path scan_file, rig_file;  ///< named in messages and in the run's record
   Scan scan;
   Rig rig;
-  ExtractionOptions extraction;                      ///< in effect: the scan's own are merged
+  ExtractionOptions extraction = scan_extraction();  ///< in effect: the scan's own are merged
   std::filesystem::path cloud = "cloud.ply";         ///< .ply, .pcd or .xyz
   std::filesystem::path profiles;                    ///< table of the sections (.csv); empty: none
   std::vector<std::filesystem::path> other_outputs;  ///< what else is written: must not be an input either

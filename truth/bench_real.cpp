@@ -32,9 +32,9 @@ SpeckleScore speckle_score(const RealStripe& truth, ExtractionOptions options, i
   RealScore plain, smooth;
   for (int k = 1; k <= pictures; ++k) {
     const Image8 image = picture_of(truth, static_cast<std::uint64_t>(k));
-    options.smoothing = false;
+    options.smoothing = Smoothing::kNever;
     add_to(plain, truth, extract_stripes(image.view(), options).stripes);
-    options.smoothing = true;
+    options.smoothing = Smoothing::kAlways;
     add_to(smooth, truth, extract_stripes(image.view(), options).stripes);
   }
   return {truth.speckle.contrast,

@@ -26,7 +26,7 @@ std::vector<RgbPicture> draw_overlays(const Scan& scan, const fs::path& folder) 
   for (const auto& [sensor, pattern] : scan.frames) {
     const auto files = list_files(scan.folder, pattern);
     const Image8 image = read_image(files[files.size() / 2], scan.channel);
-    ExtractionOptions options;
+    ExtractionOptions options = scan_extraction();
     read_subtree(scan.extraction, options);
     overlays.push_back(
         {draw_overlay(image, extract_stripes(image, options).stripes), image.width, image.height});

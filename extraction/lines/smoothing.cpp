@@ -16,7 +16,7 @@ namespace {
 
 using Node = SmoothingWorkspace::Node;
 using Change = SmoothingWorkspace::Change;
-using Band = std::vector<std::array<double, 4>>;
+using Band = SmoothingWorkspace::Band;
 
 /// Nodes in the length along which neighbours share their error; more tell nothing new.
 constexpr double kNodesPerShared = 3;
@@ -28,9 +28,9 @@ constexpr double kMostDoubtful = 1.3;
 /// Steps of the estimate are longer than plain expectation maximisation takes, in logarithms: it creeps.
 constexpr int kPasses = 10;
 constexpr double kStride = 1.7;
-/// A curve that looks over r nodes has a noise of about r^6 changes. The first ones are alike all along the
-/// stretch; the last one looks over 15 nodes, and beyond it double precision would end.
-constexpr std::array<double, 6> kFirstRatios{64, 1e3, 1e4, 1e5, 1e6, 1e7};
+/// A curve that looks over r nodes has a noise of about r^6 changes. To begin with all changes of a stretch
+/// are alike, over 2 to 46 nodes; beyond that double precision would end.
+constexpr std::array<double, 10> kFirstRatios{64, 400, 3e3, 2e4, 1.5e5, 1e6, 1e7, 1e8, 1e9, 1e10};
 /// Neighbouring places expect about the same, over half the length of shared errors to both sides.
 constexpr std::array<double, 5> kPooled{1.0 / 12, 3.0 / 12, 4.0 / 12, 3.0 / 12, 1.0 / 12};
 
@@ -39,8 +39,22 @@ void place_nodes(std::span<const StripePoint> points, std::size_t step, double s
   nodes.clear();
   for (std::size_t i = (points.size() - 1) % step / 2; i < points.size(); i += step) {
     const StripePoint& p = points[i];
-    const double weight = static_cast<double>(step) / (shared * p.sigma_px * p.sigma_px);
-    nodes.push_back({p.x, p.y, p.normal_x, p.normal_y, weight});
+    const double noise = shared * p.sigma_px * p.sigma_px / static_cast<double>(step);
+    nodes.push_back({p.x, p.y, p.normal_x, p.normal_y, noise});
+  }
+}
+
+/// The kernels' normals scatter more than chords over twice the length of shared errors, and a curve that is
+/// drawn from side to side by its normals would seem to bend.
+void turn_to_chords(std::vector<Node>& nodes) {
+  constexpr auto kReach = static_cast<std::size_t>(kNodesPerShared) + 1;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const Node &a = nodes[i - std::min(i, kReach)], &b = nodes[std::min(i + kReach, nodes.size() - 1)];
+    const double x = b.y - a.y, y = a.x - b.x, length = std::hypot(x, y);
+    if (length < 1e-9) continue;
+    const double side = x * nodes[i].normal_x + y * nodes[i].normal_y < 0 ? -1 : 1;
+    nodes[i].normal_x = side * x / length;
+    nodes[i].normal_y = side * y / length;
   }
 }
 
@@ -63,22 +77,25 @@ void find_changes(const std::vector<Node>& nodes, std::vector<Change>& changes) 
   }
 }
 
-/// The normal equations' matrix, the row's entries from the diagonal on; right-hand sides go to `aside`.
-void set_up(std::span<const Change> changes, std::vector<Node>& nodes, Band& matrix) {
-  matrix.assign(nodes.size(), {});
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    matrix[i][0] = nodes[i].weight;
-    nodes[i].aside = 0;
-  }
+/// Covariance of the changes that are seen: those of the curve, and the points' noise.
+void set_up_covariance(std::span<const Node> nodes, std::span<const Change> changes, Band& matrix) {
+  matrix.assign(changes.size(), {});
   for (std::size_t j = 0; j < changes.size(); ++j) {
-    const Change& c = changes[j];
-    const double weight = 1 / c.variance;
-    for (std::size_t m = 0; m < 4; ++m) {
-      const double weighed = weight * c.factors.at(m);
-      nodes[j + m].aside -= weighed * c.seen;
-      for (std::size_t k = m; k < 4; ++k) matrix[j + m].at(k - m) += weighed * c.factors.at(k);
-    }
+    matrix[j][0] = changes[j].expected;
+    for (std::size_t k = 0; k < std::min<std::size_t>(4, changes.size() - j); ++k)
+      for (std::size_t m = k; m < 4; ++m)
+        matrix[j].at(k) += changes[j].factors.at(m) * changes[j + k].factors.at(m - k) * nodes[j + m].noise;
   }
+}
+
+/// Inverse covariance of the nodes' places, given the points.
+void set_up_information(std::span<const Node> nodes, std::span<const Change> changes, Band& matrix) {
+  matrix.assign(nodes.size(), {});
+  for (std::size_t i = 0; i < nodes.size(); ++i) matrix[i][0] = 1 / nodes[i].noise;
+  for (std::size_t j = 0; j < changes.size(); ++j)
+    for (std::size_t m = 0; m < 4; ++m)
+      for (std::size_t k = m; k < 4; ++k)
+        matrix[j + m].at(k - m) += changes[j].factors.at(m) * changes[j].factors.at(k) / changes[j].expected;
 }
 
 /// L D L^T in the matrix's place: [0] is D, [m] is L of the row m further on.
@@ -94,13 +111,14 @@ void factorise(Band& a) {
   }
 }
 
-void solve(const Band& factor, std::vector<Node>& nodes) {
-  const std::size_t n = nodes.size();
+/// The right-hand side becomes the solution.
+void solve(const Band& factor, std::span<double> x) {
+  const std::size_t n = x.size();
   for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t m = 1; m < 4 && i + m < n; ++m) nodes[i + m].aside -= factor[i].at(m) * nodes[i].aside;
+    for (std::size_t m = 1; m < 4 && i + m < n; ++m) x[i + m] -= factor[i].at(m) * x[i];
   for (std::size_t i = n; i-- > 0;) {
-    nodes[i].aside /= factor[i][0];
-    for (std::size_t m = 1; m < 4 && i + m < n; ++m) nodes[i].aside -= factor[i].at(m) * nodes[i + m].aside;
+    x[i] /= factor[i][0];
+    for (std::size_t m = 1; m < 4 && i + m < n; ++m) x[i] -= factor[i].at(m) * x[i + m];
   }
 }
 
@@ -121,25 +139,23 @@ void invert(const Band& factor, Band& inverse) {
   }
 }
 
-/// Of the curve.
-double change_of(const Change& c, std::span<const Node, 4> nodes) {
-  double change = c.seen;
-  for (std::size_t m = 0; m < 4; ++m) change += c.factors.at(m) * nodes[m].aside;
-  return change;
+/// The changes that are seen, weighed by their covariance.
+void weigh_changes(SmoothingWorkspace& w) {
+  set_up_covariance(w.nodes, w.changes, w.factor);
+  factorise(w.factor);
+  w.solution.clear();
+  for (const Change& c : w.changes) w.solution.push_back(c.seen);
+  solve(w.factor, w.solution);
 }
 
-/// Mean square of the changes, given the points.
-void find_squares(std::span<const Node> nodes, const Band& inverse, std::span<Change> changes) {
-  for (std::size_t j = 0; j < changes.size(); ++j) {
-    Change& c = changes[j];
-    const double mean = change_of(c, nodes.subspan(j).first<4>());
-    double variance = 0;
-    for (std::size_t m = 0; m < 4; ++m) {
-      variance += c.factors.at(m) * c.factors.at(m) * inverse[j + m][0];
-      for (std::size_t k = m + 1; k < 4; ++k)
-        variance += 2 * c.factors.at(m) * c.factors.at(k) * inverse[j + m].at(k - m);
-    }
-    c.square = mean * mean + std::max(variance, 0.0);
+/// Mean squares of the curve's changes, given the points.
+void find_squares(SmoothingWorkspace& w) {
+  weigh_changes(w);
+  invert(w.factor, w.inverse);
+  for (std::size_t j = 0; j < w.changes.size(); ++j) {
+    Change& c = w.changes[j];
+    const double mean = c.expected * w.solution[j], known = c.expected * w.inverse[j][0];
+    c.square = mean * mean + c.expected * std::max(0.0, 1 - known);
   }
 }
 
@@ -150,8 +166,8 @@ void expect_what_is_seen(double least, std::span<Change> changes) {
     for (std::ptrdiff_t m = 0; m < 5; ++m)
       square += kPooled.at(static_cast<std::size_t>(m)) *
                 changes[static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(j + m - 2, 0, last))].square;
-    double& variance = changes[static_cast<std::size_t>(j)].variance;
-    variance = std::max(least, variance * std::pow(square / variance, kStride));
+    double& expected = changes[static_cast<std::size_t>(j)].expected;
+    expected = std::max(least, expected * std::pow(square / expected, kStride));
   }
 }
 
@@ -187,28 +203,16 @@ void move_points(std::span<const Node> nodes, std::size_t step, std::span<Stripe
   }
 }
 
-/// The likeliest curve, where it stands.
-void fit_curve(SmoothingWorkspace& w) {
-  set_up(w.changes, w.nodes, w.factor);
-  factorise(w.factor);
-  solve(w.factor, w.nodes);
-}
-
-/// -2 log of the points' probability, all changes expected to be as large as `variance`, less a constant.
-double surprise_by(double variance, SmoothingWorkspace& w) {
-  for (Change& c : w.changes) c.variance = variance;
-  fit_curve(w);
-  double surprise = static_cast<double>(w.changes.size()) * std::log(variance);
-  for (std::size_t i = 0; i < w.nodes.size(); ++i)
-    surprise += std::log(w.factor[i][0]) + w.nodes[i].weight * w.nodes[i].aside * w.nodes[i].aside;
-  for (std::size_t j = 0; j < w.changes.size(); ++j) {
-    const double change = change_of(w.changes[j], std::span(w.nodes).subspan(j).first<4>());
-    surprise += change * change / variance;
-  }
+/// -2 log of the probability of what is seen, all changes expected alike, less a constant.
+double surprise_by(double expected, SmoothingWorkspace& w) {
+  for (Change& c : w.changes) c.expected = expected;
+  weigh_changes(w);
+  double surprise = 0;
+  for (std::size_t j = 0; j < w.changes.size(); ++j)
+    surprise += std::log(w.factor[j][0]) + w.changes[j].seen * w.solution[j];
   return surprise;
 }
 
-/// One size of all changes along the stretch, to begin with.
 void expect_alike(double noise, SmoothingWorkspace& w) {
   double best = 0, least = std::numeric_limits<double>::infinity();
   for (const double ratio : kFirstRatios) {
@@ -218,7 +222,19 @@ void expect_alike(double noise, SmoothingWorkspace& w) {
       best = noise / ratio;
     }
   }
-  for (Change& c : w.changes) c.variance = best;
+  for (Change& c : w.changes) c.expected = best;
+}
+
+/// The curve that the points and the expected changes make likeliest.
+void fit_curve(SmoothingWorkspace& w) {
+  weigh_changes(w);
+  for (std::size_t j = 0; j < w.changes.size(); ++j)
+    for (std::size_t m = 0; m < 4; ++m)
+      w.nodes[j + m].aside -= w.nodes[j + m].noise * w.changes[j].factors.at(m) * w.solution[j];
+  set_up_information(w.nodes, w.changes, w.factor);
+  factorise(w.factor);
+  invert(w.factor, w.inverse);
+  for (std::size_t i = 0; i < w.nodes.size(); ++i) w.nodes[i].variance = w.inverse[i][0];
 }
 
 /// From point to point, px; bends count, scatter does not.
@@ -238,16 +254,14 @@ void smooth_stretch(std::span<StripePoint> points, double shared_px, double sigm
   place_nodes(points, step, shared, w.nodes);
   if (w.nodes.size() < kFewestNodes) return;
   const double noise = shared * sigma * sigma / static_cast<double>(step);
+  turn_to_chords(w.nodes);
   find_changes(w.nodes, w.changes);
   expect_alike(noise, w);
-  for (int pass = 0;; ++pass) {
-    fit_curve(w);
-    invert(w.factor, w.inverse);
-    if (pass == kPasses) break;
-    find_squares(w.nodes, w.inverse, w.changes);
+  for (int pass = 0; pass < kPasses; ++pass) {
+    find_squares(w);
     expect_what_is_seen(noise / kFirstRatios.back(), w.changes);
   }
-  for (std::size_t i = 0; i < w.nodes.size(); ++i) w.nodes[i].variance = w.inverse[i][0];
+  fit_curve(w);
   move_points(w.nodes, step, points);
 }
 

@@ -15,20 +15,22 @@ struct SmoothingWorkspace {
   /// Every few points of a stretch one that moves; the others move as the nodes beside them.
   struct Node {
     double x = 0, y = 0, normal_x = 1, normal_y = 0;
-    double weight = 0;    ///< 1 / px^2: what the points around it tell
+    double noise = 1;     ///< px^2: variance of what the points around it tell
     double aside = 0;     ///< px along the normal: the estimate
     double variance = 0;  ///< px^2, of the estimate
   };
-  /// How much the bend changes from one node to the next: a third difference across the line.
+  /// How much the bend changes from one node to the next three: a third difference across the line.
   struct Change {
-    std::array<double, 4> factors{};  ///< of four nodes' `aside`
+    std::array<double, 4> factors{};  ///< of the four nodes' places along their normals
     double seen = 0;                  ///< px, of the points as they are
-    double variance = 0;              ///< px^2: how large it is expected to be
-    double square = 0;                ///< px^2: how large it turns out to be
+    double expected = 0;              ///< px^2: variance of the curve's
+    double square = 0;                ///< px^2: what the points make of it
   };
+  using Band = std::vector<std::array<double, 4>>;  ///< of a symmetric matrix: each row from the diagonal on
   std::vector<Node> nodes;
   std::vector<Change> changes;
-  std::vector<std::array<double, 4>> factor, inverse;  ///< bands of symmetric matrices
+  Band factor, inverse;
+  std::vector<double> solution;
   std::vector<float> sigmas;
 };
 

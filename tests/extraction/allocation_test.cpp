@@ -71,7 +71,7 @@ TEST(Allocation, NoneAfterTheFirstFrames) {
   ExtractionOptions options;
   options.sigma = 2.5;
   EXPECT_EQ(allocations_in_steady_state(frames(), options), 0U);
-  options.smoothing = true;
+  options.smoothing = Smoothing::kAlways;
   EXPECT_EQ(allocations_in_steady_state(frames(), options), 0U);
 }
 

@@ -21,7 +21,7 @@ struct Series {
 Series run(double noise_share, bool smoothing, int trials) {
   ExtractionOptions options;
   options.sigma = scenes::kFigure5Sigma;
-  options.smoothing = smoothing;
+  options.smoothing = smoothing ? Smoothing::kAlways : Smoothing::kNever;
   Series series;
   int points = 0;
   for (int trial = 0; trial < trials; ++trial) {
