@@ -238,7 +238,7 @@ void finish_lines(const Run<T>& run, ScaleGroup& group) {
     find_fade_errors(kernels, group.lines, w.values);
     const EndsOnPrint on_print = run.options.on_pattern ? EndsOnPrint::kYes : EndsOnPrint::kNo;
     mend_line_ends(kernels, on_print, group.lines, w.ends);
-    mend_junctions(kernels, group.lines);
+    mend_junctions(run.image, kernels, group.lines);
   }
   if (run.options.curvature_correction && has_ridges(run.options.method))
     correct_curvature_bias(kernels, group.lines, w.bends);

@@ -83,12 +83,26 @@ double median_width(Trial& t, const LineSet& lines, const LineRange& r) {
   return ranked_median(t.w.scratch);
 }
 
-/// Replaces the points between two by a cubic that continues both sides; false where they do not fit.
-bool bridge_stretch(std::vector<StripePoint>& points, std::size_t before, std::size_t after) {
+/// Whether a line of this width, running through `bridge`, could lie inside the light that was measured at
+/// `seen`: else the light bends as the bridge does not, and is the line itself.
+bool is_inside_spot(const StripePoint& bridge, const StripePoint& seen, double width) {
+  constexpr double kUnsure = 0.25;  // of the line's width: where the spot and the line part
+  if ((seen.flags & kStripeBridged) != 0) return true;
+  const double off = (bridge.x - seen.x) * seen.normal_x + (bridge.y - seen.y) * seen.normal_y;
+  return std::abs(off) <= 0.5 * std::max(0.0, seen.width - width) + kUnsure * width;
+}
+
+/// Replaces the points between two, in a spot on a line of this width, by a cubic that continues both sides;
+/// false where they do not fit.
+bool bridge_spot(std::vector<StripePoint>& points, std::size_t before, std::size_t after, double width) {
   if (!can_bridge(points[before], points[after])) return false;
+  const auto bridge = [&](std::size_t i) {
+    return bridged_point(points[before], points[after],
+                         static_cast<double>(i - before) / static_cast<double>(after - before));
+  };
   for (std::size_t i = before + 1; i < after; ++i)
-    points[i] = bridged_point(points[before], points[after],
-                              static_cast<double>(i - before) / static_cast<double>(after - before));
+    if (!is_inside_spot(bridge(i), points[i], width)) return false;
+  for (std::size_t i = before + 1; i < after; ++i) points[i] = bridge(i);
   return true;
 }
 
@@ -174,7 +188,7 @@ void mend_or_cut(Trial& t, LineSet& lines, const LineRange& whole) {
     // A short rest behind a spot is the spot's own tip.
     const bool inside = before >= begin + least_run && after + least_run <= r.end;
     if (!other_light && inside && bad.last - bad.first < longest &&
-        bridge_stretch(lines.points, before, after))
+        bridge_spot(lines.points, before, after, width))
       continue;
     // Bloom widens the line, but it goes on inside.
     if (bad.spot && !other_light && stretch_width(t, lines, bad) < 2 * t.options.spot_width_ratio * width)

@@ -9,6 +9,8 @@
 #include <optional>
 #include <span>
 
+#include "extraction/follow/direction_guided_ridge.h"
+
 namespace lightstripe {
 namespace {
 
@@ -27,6 +29,8 @@ struct JunctionCurve {
   double v_of(const StripePoint& p) const { return (p.y - y) * along_x - (p.x - x) * along_y; }
   double at(double w) const { return c[0] + w * (c[1] + w * c[2]); }
   double slope(double w) const { return (c[1] + 2 * w * c[2]) / length; }
+  /// From a point across the chord to the curve.
+  double off(const StripePoint& p) const { return at(u_of(p)) - v_of(p); }
 };
 
 bool is_bridged(const StripePoint& p) { return (p.flags & kStripeBridged) != 0; }
@@ -76,8 +80,8 @@ std::optional<JunctionCurve> fit_curve(std::span<const StripePoint> line, const 
 
 /// A point that was not bridged before errs by `pulled` px at least: another line draws at it.
 void put_on(const JunctionCurve& curve, double pulled, StripePoint& p) {
-  const double w = curve.u_of(p), slope = curve.slope(w), scale = 1 / std::hypot(1.0, slope);
-  const double off = curve.at(w) - curve.v_of(p);
+  const double slope = curve.slope(curve.u_of(p)), scale = 1 / std::hypot(1.0, slope);
+  const double off = curve.off(p);
   p.x -= off * curve.along_y;
   p.y += off * curve.along_x;
   // Across the curve, on the side of the point's own normal.
@@ -90,33 +94,58 @@ void put_on(const JunctionCurve& curve, double pulled, StripePoint& p) {
   p.flags |= kStripeBridged;
 }
 
-void mend(std::span<StripePoint> line, const Bridge& b, double sigma) {
+bool goes_onto(const JunctionCurve& curve, const StripePoint& p) {
+  return is_bridged(p) || std::abs(curve.off(p)) > 3 * p.sigma_px;
+}
+
+/// Whether the points that the curve would move by more than a pixel find there what light they had, to a
+/// quarter of it: what crosses draws them along its own light, but off a bend a parabola runs in the dark.
+template <class T>
+bool stays_in_light(ImageView<T> image, const JunctionCurve& curve, std::span<const StripePoint> points) {
+  double lost = 0, had = 0;
+  for (const StripePoint& p : points) {
+    const double off = curve.off(p);
+    if (!goes_onto(curve, p) || std::abs(off) <= 1) continue;
+    const NearestPixel from = nearest_inside(image, p.x, p.y),
+                       to = nearest_inside(image, p.x - off * curve.along_y, p.y + off * curve.along_x);
+    lost += static_cast<double>(image(from.x, from.y)) - static_cast<double>(image(to.x, to.y));
+    had += static_cast<double>(p.intensity);
+  }
+  return lost <= 0.25 * had;
+}
+
+template <class T>
+void mend(ImageView<T> image, std::span<StripePoint> line, const Bridge& b, double sigma) {
   constexpr double kAgrees = 2;  // times the points' own error
   const auto reach = static_cast<std::size_t>(8 * sigma);
   for (const double wanted : {2.0, 4.0, 6.0}) {
     const auto margin = static_cast<std::size_t>(wanted * sigma);
     const auto curve = fit_curve(line, b, margin, reach);
     if (!curve || curve->rms > kAgrees * curve->expected) continue;
-    for (std::size_t i = b.begin - margin; i < b.end + margin; ++i) {
-      const double off = std::abs(curve->v_of(line[i]) - curve->at(curve->u_of(line[i])));
-      if (is_bridged(line[i]) || off > 3 * line[i].sigma_px) put_on(*curve, 0.1 * sigma, line[i]);
-    }
+    const auto within = line.subspan(b.begin - margin, b.end - b.begin + 2 * margin);
+    if (!stays_in_light<T>(image, *curve, within)) continue;
+    for (StripePoint& p : within)
+      if (goes_onto(*curve, p)) put_on(*curve, 0.1 * sigma, p);
     return;
   }
 }
 
 }  // namespace
 
-void mend_junctions(const DerivativeKernels& kernels, LineSet& lines) {
+template <class T>
+void mend_junctions(ImageView<T> image, const DerivativeKernels& kernels, LineSet& lines) {
   for (const LineRange& r : lines.lines) {
     const std::span<StripePoint> line(lines.points.data() + r.begin, r.size());
     for (std::size_t at = 0; at < line.size();) {
       const auto bridge = next_bridge(line, at);
       if (!bridge) break;
-      mend(line, *bridge, kernels.sigma);
+      mend(image, line, *bridge, kernels.sigma);
       at = bridge->end;
     }
   }
 }
+
+template void mend_junctions<std::uint8_t>(ImageView8, const DerivativeKernels&, LineSet&);
+template void mend_junctions<std::uint16_t>(ImageView16, const DerivativeKernels&, LineSet&);
 
 }  // namespace lightstripe
