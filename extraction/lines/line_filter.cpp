@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "extraction/follow/bridge.h"
 #include "extraction/follow/direction_guided_ridge.h"
@@ -83,26 +84,31 @@ double median_width(Trial& t, const LineSet& lines, const LineRange& r) {
   return ranked_median(t.w.scratch);
 }
 
-/// Whether a line of this width, running through `bridge`, could lie inside the light that was measured at
-/// `seen`: else the light bends as the bridge does not, and is the line itself.
-bool is_inside_spot(const StripePoint& bridge, const StripePoint& seen, double width) {
-  constexpr double kUnsure = 0.25;  // of the line's width: where the spot and the line part
-  if ((seen.flags & kStripeBridged) != 0) return true;
-  const double off = (bridge.x - seen.x) * seen.normal_x + (bridge.y - seen.y) * seen.normal_y;
-  return std::abs(off) <= 0.5 * std::max(0.0, seen.width - width) + kUnsure * width;
+/// How far a bridge runs beside the light that was measured there, px.
+double beside_light(const StripePoint& bridge, const StripePoint& seen) {
+  if ((seen.flags & kStripeBridged) != 0) return 0;
+  return std::abs((bridge.x - seen.x) * seen.normal_x + (bridge.y - seen.y) * seen.normal_y);
 }
 
 /// Replaces the points between two, in a spot on a line of this width, by a cubic that continues both sides;
-/// false where they do not fit.
+/// false where they do not fit. The light of a spot may hide the line, or be the line, which is higher there:
+/// as likely one as the other, and sigma_px says so, and predict_errors() adds its own. Where the line, on
+/// the bridge, could not lie inside the light at all, it is the line.
 bool bridge_spot(std::vector<StripePoint>& points, std::size_t before, std::size_t after, double width) {
+  constexpr double kUnsure = 0.25;  // of the line's width: where the spot and the line part
   if (!can_bridge(points[before], points[after])) return false;
   const auto bridge = [&](std::size_t i) {
     return bridged_point(points[before], points[after],
                          static_cast<double>(i - before) / static_cast<double>(after - before));
   };
   for (std::size_t i = before + 1; i < after; ++i)
-    if (!is_inside_spot(bridge(i), points[i], width)) return false;
-  for (std::size_t i = before + 1; i < after; ++i) points[i] = bridge(i);
+    if (beside_light(bridge(i), points[i]) > 0.5 * std::max(0.0, points[i].width - width) + kUnsure * width)
+      return false;
+  for (std::size_t i = before + 1; i < after; ++i) {
+    StripePoint p = bridge(i);
+    p.sigma_px = beside_light(p, points[i]) / std::numbers::sqrt2;
+    points[i] = p;
+  }
   return true;
 }
 

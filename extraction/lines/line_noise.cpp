@@ -145,11 +145,33 @@ double share_outside(ImageView<T> image, double sigma, const StripePoint& p) {
   return inside > 3 * sigma ? 0.0 : 0.5 * std::erfc((inside + 0.5) / (sigma * std::numbers::sqrt2));
 }
 
+/// How far beside a bridge light like the line's own is, px, over sqrt(2): where the bridge itself runs in
+/// the dark, the line may as well go there. 0: none, or a spot's bridge, which knows it. Grains of the line's
+/// own bar do not count.
+template <class T>
+double doubt_of_bridge(ImageView<T> image, const StripePoint& p, double intensity) {
+  if ((p.flags & kStripeBridged) == 0) return 0;
+  if (p.sigma_px > 0) return p.sigma_px;
+  const auto level = [&](double across) {
+    const auto [x, y] = nearest_inside(image, p.x + across * p.normal_x, p.y + across * p.normal_y);
+    return static_cast<double>(image(x, y));
+  };
+  double brightest = level(0) + 0.5 * intensity, place = 0;
+  for (double across = 0.5 * p.width + 1; across <= 2 * p.width; across += 1)
+    for (const double k : {-across, across}) {
+      if (level(k) <= brightest) continue;
+      brightest = level(k);
+      place = across;
+    }
+  return place / std::numbers::sqrt2;
+}
+
 /// How a point was come by.
 struct PointPlace {
   double recentred = 0;  ///< the share of the point's rows that grain_centres weighed
   double outside = 0;    ///< that of its kernels beyond the border
   double gap = 0;        ///< points of the bridge that it belongs to
+  double beside = 0;     ///< px: doubt_of_bridge()
 };
 
 double predicted_error(const LineErrors& e, const DerivativeKernels& kernels, const StripePoint& p,
@@ -168,7 +190,8 @@ double predicted_error(const LineErrors& e, const DerivativeKernels& kernels, co
       place.gap / (kGapOfGrain * std::max(kernels.sigma, kSuitable * sigma_of_full_width(p.width)));
   const double longer = 1 + gap * gap;
   const double camera = e.grain > 0 ? 5 * own : std::max(5 * own, 0.1 * kernels.sigma);
-  return std::sqrt(camera * camera + photons + longer * e.grain + left + border);
+  return std::sqrt(camera * camera + photons + longer * e.grain + left + border +
+                   place.beside * place.beside);
 }
 
 /// The points from `begin` on that have one sense: bridged, or not.
@@ -205,11 +228,13 @@ void predict_errors(ImageView<T> image, const DerivativeKernels& kernels, double
     for (std::size_t begin = r.begin, end = 0; begin < r.end; begin = end) {
       end = end_of_stretch(lines, r, begin);
       const auto gap = static_cast<double>(end - begin);
-      for (std::size_t i = begin; i < end; ++i)
-        lines.points[i].sigma_px =
-            predicted_error(errors, kernels, lines.points[i],
-                            {i < lines.recentred.size() ? lines.recentred[i] : 0.0,
-                             share_outside(image, kernels.sigma, lines.points[i]), gap});
+      for (std::size_t i = begin; i < end; ++i) {
+        StripePoint& p = lines.points[i];
+        const PointPlace place{i < lines.recentred.size() ? lines.recentred[i] : 0.0,
+                               share_outside(image, kernels.sigma, p), gap,
+                               doubt_of_bridge(image, p, errors.intensity)};
+        p.sigma_px = predicted_error(errors, kernels, p, place);
+      }
     }
   }
 }

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "extraction/extract_stripes.h"
 #include "stripe_scenes.h"
@@ -61,6 +62,29 @@ TEST(LineSpots, SigmaHoldsInAReflection) {
     }
   EXPECT_GT(worst, 0.3);
   EXPECT_LT(surprise, 6);
+}
+
+/// A weld bead: higher than the plate, bright and wider. What bridges it cuts it off, by up to its height:
+/// then sigma_px has to know it. It was 0.2 px in each of these.
+TEST(LineSpots, SigmaHoldsWhereABridgeCutsABeadOff) {
+  struct Bead {
+    double height, reach, light;
+  };
+  for (const Bead& b : {Bead{7, 28, 400}, Bead{7, 8, 400}, Bead{10, 28, 1500}, Bead{14, 8, 400}}) {
+    scenes::Canvas canvas(300, 200, 8);
+    const scenes::Curve curve = scenes::make_curve([&](double u) {
+      const double x = 20 + 260 * u, part = std::min(1.0, std::abs(x - 150) / b.reach);
+      const double bead = 0.5 + 0.5 * std::cos(part * std::numbers::pi);
+      return scenes::CurvePoint{x, 100 - b.height * bead, 120 + b.light * bead, 1.6 + 0.8 * bead};
+    });
+    canvas.add(curve);
+    const auto found = extract_stripes(canvas.exposed(1.5, 0, 2).view());
+    ASSERT_FALSE(found.stripes.empty());
+    for (const Stripe& s : found.stripes)
+      for (const StripePoint& p : s.points)
+        EXPECT_LT(scenes::distance_to({curve}, p.x, p.y), std::max(1.0, 3 * p.sigma_px))
+            << b.height << " high: " << p.x << " " << p.y << " sigma " << p.sigma_px;
+  }
 }
 
 }  // namespace
