@@ -151,9 +151,10 @@ void move_points(const LineRange& range, const GrainWorkspace& w, LineSet& lines
 
 double length_of(const LineSet& lines, const LineRange& r) {
   double length = 0;
-  for (std::size_t i = r.begin + 1; i < r.end; ++i)
-    length +=
-        std::hypot(lines.points[i].x - lines.points[i - 1].x, lines.points[i].y - lines.points[i - 1].y);
+  for (std::size_t i = r.begin + 1; i < r.end; ++i) {
+    const StripePoint &a = lines.points[i - 1], &b = lines.points[i];
+    length += std::sqrt((b.x - a.x) * (b.x - a.x) + (b.y - a.y) * (b.y - a.y));
+  }
   return length;
 }
 

@@ -16,7 +16,6 @@ namespace {
 
 using Node = SmoothingWorkspace::Node;
 using Change = SmoothingWorkspace::Change;
-using Band = SmoothingWorkspace::Band;
 
 /// Nodes in the length along which neighbours share their error; more tell nothing new.
 constexpr double kNodesPerShared = 3;
@@ -39,7 +38,7 @@ void place_nodes(std::span<const StripePoint> points, std::size_t step, double s
   nodes.clear();
   for (std::size_t i = (points.size() - 1) % step / 2; i < points.size(); i += step) {
     const StripePoint& p = points[i];
-    const double noise = shared * p.sigma_px * p.sigma_px / static_cast<double>(step);
+    const double noise = std::max(1e-12, shared * p.sigma_px * p.sigma_px / static_cast<double>(step));
     nodes.push_back({p.x, p.y, p.normal_x, p.normal_y, noise});
   }
 }
@@ -78,7 +77,7 @@ void find_changes(const std::vector<Node>& nodes, std::vector<Change>& changes) 
 }
 
 /// Covariance of the changes that are seen: those of the curve, and the points' noise.
-void set_up_covariance(std::span<const Node> nodes, std::span<const Change> changes, Band& matrix) {
+void set_up_covariance(std::span<const Node> nodes, std::span<const Change> changes, BandMatrix& matrix) {
   matrix.assign(changes.size(), {});
   for (std::size_t j = 0; j < changes.size(); ++j) {
     matrix[j][0] = changes[j].expected;
@@ -89,54 +88,13 @@ void set_up_covariance(std::span<const Node> nodes, std::span<const Change> chan
 }
 
 /// Inverse covariance of the nodes' places, given the points.
-void set_up_information(std::span<const Node> nodes, std::span<const Change> changes, Band& matrix) {
+void set_up_information(std::span<const Node> nodes, std::span<const Change> changes, BandMatrix& matrix) {
   matrix.assign(nodes.size(), {});
   for (std::size_t i = 0; i < nodes.size(); ++i) matrix[i][0] = 1 / nodes[i].noise;
   for (std::size_t j = 0; j < changes.size(); ++j)
     for (std::size_t m = 0; m < 4; ++m)
       for (std::size_t k = m; k < 4; ++k)
         matrix[j + m].at(k - m) += changes[j].factors.at(m) * changes[j].factors.at(k) / changes[j].expected;
-}
-
-/// L D L^T in the matrix's place: [0] is D, [m] is L of the row m further on.
-void factorise(Band& a) {
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    const std::array<double, 4> row = a[i];
-    const std::size_t reach = std::min<std::size_t>(3, a.size() - 1 - i);
-    for (std::size_t m = 1; m <= reach; ++m) {
-      const double l = row.at(m) / row[0];
-      for (std::size_t k = m; k <= reach; ++k) a[i + m].at(k - m) -= l * row.at(k);
-      a[i].at(m) = l;
-    }
-  }
-}
-
-/// The right-hand side becomes the solution.
-void solve(const Band& factor, std::span<double> x) {
-  const std::size_t n = x.size();
-  for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t m = 1; m < 4 && i + m < n; ++m) x[i + m] -= factor[i].at(m) * x[i];
-  for (std::size_t i = n; i-- > 0;) {
-    x[i] /= factor[i][0];
-    for (std::size_t m = 1; m < 4 && i + m < n; ++m) x[i] -= factor[i].at(m) * x[i + m];
-  }
-}
-
-/// The inverse's entries within the band, from the last row on (Takahashi's equations).
-void invert(const Band& factor, Band& inverse) {
-  const std::size_t n = factor.size();
-  inverse.assign(n, {});
-  const auto at = [&](std::size_t i, std::size_t j) {
-    return inverse[std::min(i, j)].at(std::max(i, j) - std::min(i, j));
-  };
-  for (std::size_t i = n; i-- > 0;) {
-    const std::size_t reach = std::min<std::size_t>(3, n - 1 - i);
-    for (std::size_t k = reach + 1; k-- > 0;) {
-      double value = k == 0 ? 1 / factor[i][0] : 0.0;
-      for (std::size_t m = 1; m <= reach; ++m) value -= factor[i].at(m) * at(i + m, i + k);
-      inverse[i].at(k) = value;
-    }
-  }
 }
 
 /// The changes that are seen, weighed by their covariance.

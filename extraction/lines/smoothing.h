@@ -6,6 +6,7 @@
 #include <array>
 #include <vector>
 
+#include "extraction/lines/band_matrix.h"
 #include "extraction/lines/line_set.h"
 
 namespace lightstripe {
@@ -26,10 +27,9 @@ struct SmoothingWorkspace {
     double expected = 0;              ///< px^2: variance of the curve's
     double square = 0;                ///< px^2: what the points make of it
   };
-  using Band = std::vector<std::array<double, 4>>;  ///< of a symmetric matrix: each row from the diagonal on
   std::vector<Node> nodes;
   std::vector<Change> changes;
-  Band factor, inverse;
+  BandMatrix factor, inverse;
   std::vector<double> solution;
   std::vector<float> sigmas;
 };

@@ -5,11 +5,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <vector>
 
 #include "core/random.h"
+#include "extraction/extract_stripes.h"
+#include "simulate/real_stripe.h"
 
 namespace lightstripe {
 namespace {
@@ -67,6 +70,46 @@ TEST(Smoothing, AStraightLineGainsAFactorOfTwoAndSigmaKnowsIt) {
   EXPECT_NEAR(e.sigma / e.rms, 1, 0.3);
 }
 
+// The kernels' normals of a faint line scatter by some tenths, and a curve that followed them seemed to bend.
+TEST(Smoothing, NormalsThatScatterBendNothing) {
+  const auto straight = [](double y) { return 100 + 0.1 * y; };
+  double squares = 0;
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    LineSet lines = noisy_line(straight, seed);
+    Random random(seed, 3);
+    for (StripePoint& p : lines.points) {
+      const double angle = 0.15 * random.gaussian();
+      p.normal_x = std::cos(angle);
+      p.normal_y = std::sin(angle);
+    }
+    SmoothingWorkspace workspace;
+    smooth_along_lines(lines, workspace);
+    for (const StripePoint& p : lines.points) squares += std::pow(p.x - straight(p.y), 2) / (8 * 400);
+  }
+  EXPECT_LT(std::sqrt(squares), kSigma / 2);
+}
+
+// Half of the line is straight: there the curve looks far, and the arc does not end it.
+TEST(Smoothing, AStraightStretchGainsBesideABend) {
+  const auto x_at = [](double y) { return y < 200 ? 100 : 100 + 0.002 * (y - 200) * (y - 200); };
+  double squares = 0, predicted = 0, bent = 0;
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    LineSet lines = noisy_line(x_at, seed);
+    SmoothingWorkspace workspace;
+    smooth_along_lines(lines, workspace);
+    for (const StripePoint& p : lines.points) {
+      const double square = std::pow(p.x - x_at(p.y), 2) / (8 * 180);
+      if (p.y > 170) bent += square * 180 / 230;
+      if (p.y >= 180) continue;
+      squares += square;
+      predicted += p.sigma_px * p.sigma_px / (8 * 180);
+    }
+  }
+  EXPECT_LT(std::sqrt(squares), kSigma / 2);
+  EXPECT_NEAR(std::sqrt(squares / predicted), 1, 0.3);
+  EXPECT_LT(std::sqrt(bent), 0.8 * kSigma);
+}
+
 TEST(Smoothing, AGentleBendGainsToo) {
   const Errors e = smoothed([](double y) { return 100 + 18 * std::sin(y / 80); });
   EXPECT_LT(e.rms, kSigma / 1.4);
@@ -78,6 +121,34 @@ TEST(Smoothing, ACornerStays) {
   SmoothingWorkspace workspace;
   smooth_along_lines(lines, workspace);
   for (const StripePoint& p : lines.points) EXPECT_NEAR(p.x, 100 + std::abs(p.y - 200), 0.6) << p.y;
+}
+
+/// Whether scans' own choice gives the same points as this one.
+bool scans_take(Smoothing smoothing, const Image8& image) {
+  ExtractionOptions options;
+  options.smoothing = smoothing;
+  const auto by_scans = extract_stripes(image.view(), scan_extraction()),
+             by_this = extract_stripes(image.view(), options);
+  if (by_scans.stripes.size() != by_this.stripes.size() || by_this.stripes.empty()) return false;
+  for (std::size_t k = 0; k < by_this.stripes.size(); ++k) {
+    const auto &a = by_scans.stripes[k].points, &b = by_this.stripes[k].points;
+    const auto same = [](const StripePoint& p, const StripePoint& q) {
+      return p.x == q.x && p.y == q.y && p.sigma_px == q.sigma_px;
+    };
+    if (!std::ranges::equal(a, b, same)) return false;
+  }
+  return true;
+}
+
+TEST(Smoothing, ScansAreSmoothedInGrainOnly) {
+  RealStripe stripe;
+  const Image8 clean = picture_of(stripe, 3);
+  EXPECT_TRUE(scans_take(Smoothing::kNever, clean));
+  EXPECT_FALSE(scans_take(Smoothing::kAlways, clean));
+  stripe.speckle = {0.3, 1.2};
+  const Image8 grained = picture_of(stripe, 3);
+  EXPECT_TRUE(scans_take(Smoothing::kAlways, grained));
+  EXPECT_FALSE(scans_take(Smoothing::kNever, grained));
 }
 
 }  // namespace
