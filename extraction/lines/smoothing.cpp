@@ -24,6 +24,9 @@ constexpr double kLongestBridge = 6;
 constexpr std::size_t kFewestNodes = 8;
 /// Near the ends of a stretch, over the line's own sigma: what the end has drawn aside goes its own way.
 constexpr double kMostDoubtful = 1.3;
+/// Over a point's own sigma: where the curve lies farther off, it is not the line, as behind a hook at an
+/// end.
+constexpr double kFarthest = 3;
 /// Steps of the estimate are longer than plain expectation maximisation takes, in logarithms: it creeps.
 constexpr int kPasses = 10;
 constexpr double kStride = 1.7;
@@ -150,6 +153,7 @@ void move_points(std::span<const Node> nodes, std::size_t step, std::span<Stripe
       y += weights.at(m) * (node.y + node.aside * node.normal_y);
     }
     const double aside = (x - p.x) * p.normal_x + (y - p.y) * p.normal_y;
+    if (std::abs(aside) > kFarthest * p.sigma_px) continue;
     p.x += aside * p.normal_x;
     p.y += aside * p.normal_y;
     const auto before =

@@ -123,6 +123,28 @@ TEST(Smoothing, ACornerStays) {
   for (const StripePoint& p : lines.points) EXPECT_NEAR(p.x, 100 + std::abs(p.y - 200), 0.6) << p.y;
 }
 
+// As on a real picture, where a line's end was followed into a glow beside it: the curve ran on by 10 sigma.
+TEST(Smoothing, AHookAtTheEndIsNotCutOff) {
+  LineSet lines = noisy_line([](double y) { return 100 + 0.1 * y; }, 3);
+  lines.lines[0].shared_px = 12;
+  const std::size_t corner = 396;
+  const StripePoint last = lines.points[corner];
+  for (std::size_t i = corner + 1; i < lines.points.size(); ++i) {
+    StripePoint& p = lines.points[i];
+    p.x = last.x + static_cast<double>(i - corner);
+    p.y = last.y + 0.2 * static_cast<double>(i - corner);
+    p.normal_x = -0.2;
+    p.normal_y = 0.98;
+  }
+  const LineSet before = lines;
+  SmoothingWorkspace workspace;
+  smooth_along_lines(lines, workspace);
+  for (std::size_t i = 0; i < lines.points.size(); ++i) {
+    const StripePoint &p = lines.points[i], &q = before.points[i];
+    EXPECT_LE(std::hypot(p.x - q.x, p.y - q.y), 3.001 * q.sigma_px) << i;
+  }
+}
+
 /// Whether scans' own choice gives the same points as this one.
 bool scans_take(Smoothing smoothing, const Image8& image) {
   ExtractionOptions options;
