@@ -92,7 +92,7 @@ double beside_light(const StripePoint& bridge, const StripePoint& seen) {
 
 /// Replaces the points between two, in a spot on a line of this width, by a cubic that continues both sides;
 /// false where they do not fit. The light of a spot may hide the line, or be the line, which is higher there:
-/// as likely one as the other, and sigma_px says so, and predict_errors() adds its own. Where the line, on
+/// as likely one as the other; sigma_px says so, and predict_errors() adds the rest. Where the line, on
 /// the bridge, could not lie inside the light at all, it is the line.
 bool bridge_spot(std::vector<StripePoint>& points, std::size_t before, std::size_t after, double width) {
   constexpr double kUnsure = 0.25;  // of the line's width: where the spot and the line part

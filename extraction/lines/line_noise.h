@@ -45,7 +45,8 @@ void recentre_lines(ImageView<T> image, const DerivativeKernels& kernels, LineSe
                     ErrorWorkspace& workspace);
 
 /// Sets sigma_px of every point: the camera's noise by the point's strength, and the scatter of the rows
-/// along its line (photon noise, speckle, texture).
+/// along its line (photon noise, speckle, texture); of bridged points also how far they run beside light that
+/// may be the line's: what sigma_px says of it already (a bridge over a spot), else what the image shows.
 template <class T>
 void predict_errors(ImageView<T> image, const DerivativeKernels& kernels, double background_noise,
                     LineSet& lines, ErrorWorkspace& workspace);
