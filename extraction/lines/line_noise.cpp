@@ -158,9 +158,9 @@ double doubt_of_bridge(ImageView<T> image, const StripePoint& p, double intensit
   };
   double brightest = level(0) + 0.5 * intensity, place = 0;
   for (double across = 0.5 * p.width + 1; across <= 2 * p.width; across += 1)
-    for (const double k : {-across, across}) {
-      if (level(k) <= brightest) continue;
-      brightest = level(k);
+    for (const double seen : {level(-across), level(across)}) {
+      if (seen <= brightest) continue;
+      brightest = seen;
       place = across;
     }
   return place / std::numbers::sqrt2;

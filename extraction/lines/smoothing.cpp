@@ -36,13 +36,26 @@ constexpr std::array<double, 10> kFirstRatios{64, 400, 3e3, 2e4, 1.5e5, 1e6, 1e7
 /// Neighbouring places expect about the same, over half the length of shared errors to both sides.
 constexpr std::array<double, 5> kPooled{1.0 / 12, 3.0 / 12, 4.0 / 12, 3.0 / 12, 1.0 / 12};
 
-void place_nodes(std::span<const StripePoint> points, std::size_t step, double shared,
-                 std::vector<Node>& nodes) {
+/// How nodes stand among the points.
+struct NodeSpacing {
+  std::size_t first = 0, step = 1;  ///< points
+  double shared = 1;                ///< points that share one error
+
+  /// Variance of what the points around a node tell, px^2; `sigma`: of each of them.
+  double noise(double sigma) const {
+    return std::max(1e-12, shared * sigma * sigma / static_cast<double>(step));
+  }
+  /// The i-th point's, in nodes.
+  double place(std::size_t i) const {
+    return (static_cast<double>(i) - static_cast<double>(first)) / static_cast<double>(step);
+  }
+};
+
+void place_nodes(std::span<const StripePoint> points, const NodeSpacing& spacing, std::vector<Node>& nodes) {
   nodes.clear();
-  for (std::size_t i = (points.size() - 1) % step / 2; i < points.size(); i += step) {
+  for (std::size_t i = spacing.first; i < points.size(); i += spacing.step) {
     const StripePoint& p = points[i];
-    const double noise = std::max(1e-12, shared * p.sigma_px * p.sigma_px / static_cast<double>(step));
-    nodes.push_back({p.x, p.y, p.normal_x, p.normal_y, noise});
+    nodes.push_back({p.x, p.y, p.normal_x, p.normal_y, spacing.noise(p.sigma_px)});
   }
 }
 
@@ -79,15 +92,13 @@ void find_changes(const std::vector<Node>& nodes, std::vector<Change>& changes) 
   }
 }
 
-/// Covariance of the changes that are seen: those of the curve, and the points' noise.
-void set_up_covariance(std::span<const Node> nodes, std::span<const Change> changes, BandMatrix& matrix) {
+/// What the points' noise adds to the changes: its covariance.
+void find_noise(std::span<const Node> nodes, std::span<const Change> changes, BandMatrix& matrix) {
   matrix.assign(changes.size(), {});
-  for (std::size_t j = 0; j < changes.size(); ++j) {
-    matrix[j][0] = changes[j].expected;
+  for (std::size_t j = 0; j < changes.size(); ++j)
     for (std::size_t k = 0; k < std::min<std::size_t>(4, changes.size() - j); ++k)
       for (std::size_t m = k; m < 4; ++m)
         matrix[j].at(k) += changes[j].factors.at(m) * changes[j + k].factors.at(m - k) * nodes[j + m].noise;
-  }
 }
 
 /// Inverse covariance of the nodes' places, given the points.
@@ -100,9 +111,10 @@ void set_up_information(std::span<const Node> nodes, std::span<const Change> cha
         matrix[j + m].at(k - m) += changes[j].factors.at(m) * changes[j].factors.at(k) / changes[j].expected;
 }
 
-/// The changes that are seen, weighed by their covariance.
+/// The changes that are seen, weighed by their covariance: that of the curve's own, and the noise.
 void weigh_changes(SmoothingWorkspace& w) {
-  set_up_covariance(w.nodes, w.changes, w.factor);
+  w.factor = w.noise;
+  for (std::size_t j = 0; j < w.changes.size(); ++j) w.factor[j][0] += w.changes[j].expected;
   factorise(w.factor);
   w.solution.clear();
   for (const Change& c : w.changes) w.solution.push_back(c.seen);
@@ -138,11 +150,10 @@ std::array<double, 4> cubic_weights(double t) {
   return {-b * c * d / 6, a * c * d / 2, -a * b * d / 2, a * b * c / 6};
 }
 
-void move_points(std::span<const Node> nodes, std::size_t step, std::span<StripePoint> points) {
-  const std::size_t first = (points.size() - 1) % step / 2;
+void move_points(std::span<const Node> nodes, const NodeSpacing& spacing, std::span<StripePoint> points) {
   for (std::size_t i = 0; i < points.size(); ++i) {
     StripePoint& p = points[i];
-    const double place = (static_cast<double>(i) - static_cast<double>(first)) / static_cast<double>(step);
+    const double place = spacing.place(i);
     const auto begin =
         static_cast<std::size_t>(std::clamp(place - 1, 0.0, static_cast<double>(nodes.size() - 4)));
     const std::array<double, 4> weights = cubic_weights(place - static_cast<double>(begin));
@@ -211,20 +222,23 @@ double mean_distance(std::span<const StripePoint> points) {
 }
 
 void smooth_stretch(std::span<StripePoint> points, double shared_px, double sigma, SmoothingWorkspace& w) {
-  const double shared = std::max(1.0, shared_px / mean_distance(points));
-  const auto step = static_cast<std::size_t>(std::max(1.0, shared / kNodesPerShared));
-  place_nodes(points, step, shared, w.nodes);
+  NodeSpacing spacing;
+  spacing.shared = std::max(1.0, shared_px / mean_distance(points));
+  spacing.step = static_cast<std::size_t>(std::max(1.0, spacing.shared / kNodesPerShared));
+  spacing.first = (points.size() - 1) % spacing.step / 2;
+  place_nodes(points, spacing, w.nodes);
   if (w.nodes.size() < kFewestNodes) return;
-  const double noise = shared * sigma * sigma / static_cast<double>(step);
+  const double noise = spacing.noise(sigma);
   turn_to_chords(w.nodes);
   find_changes(w.nodes, w.changes);
+  find_noise(w.nodes, w.changes, w.noise);
   expect_alike(noise, w);
   for (int pass = 0; pass < kPasses; ++pass) {
     find_squares(w);
     expect_what_is_seen(noise / kFirstRatios.back(), w.changes);
   }
   fit_curve(w);
-  move_points(w.nodes, step, points);
+  move_points(w.nodes, spacing, points);
 }
 
 /// The end of the stretch that begins at `begin` without gaps and long bridges. A short bridge is a curve

@@ -29,6 +29,7 @@ struct SmoothingWorkspace {
   };
   std::vector<Node> nodes;
   std::vector<Change> changes;
+  BandMatrix noise;  ///< px^2: covariance of what it adds to the changes
   BandMatrix factor, inverse;
   std::vector<double> solution;
   std::vector<float> sigmas;
