@@ -18,6 +18,7 @@
 #include "extraction/image/stripe_width.h"
 #include "extraction/kernels/width_rule.h"
 #include "extraction/lines/curvature_bias.h"
+#include "extraction/lines/end_cuts.h"
 #include "extraction/lines/line_ends.h"
 #include "extraction/lines/line_fade.h"
 #include "extraction/lines/line_junctions.h"
@@ -229,6 +230,12 @@ bool has_ridges(ExtractionMethod method) {
   return method != ExtractionMethod::kCentroid && method != ExtractionMethod::kExtremum;
 }
 
+/// On a board the print scatters rows like grain, and edges of the print are no laser's profile.
+template <class T>
+bool weighs_grain(const Run<T>& run) {
+  return run.w.errors.common.grain_px > 0 && has_ridges(run.options.method) && !run.options.on_pattern;
+}
+
 template <class T>
 void finish_lines(const Run<T>& run, ScaleGroup& group) {
   ExtractionWorkspace& w = run.w;
@@ -242,6 +249,7 @@ void finish_lines(const Run<T>& run, ScaleGroup& group) {
   }
   if (run.options.curvature_correction && has_ridges(run.options.method))
     correct_curvature_bias(kernels, group.lines, w.bends);
+  if (weighs_grain(run)) recentre_ends(run.image, kernels, w.errors.common.grain_px, group.lines, w.end_cuts);
   find_spot_errors(group.lines, w.values);
   const bool has_grain = w.errors.common.grain_px > 0;
   if (run.options.smoothing == Smoothing::kAlways ||
@@ -276,8 +284,7 @@ void look_at_scatter(const Run<T>& run) {
   }
   errors.common = common_scatter(errors.differences);
   errors.by_kernels.clear();
-  // On a board the print scatters rows like grain, and edges of the print are no laser's profile.
-  if (errors.common.grain_px > 0 && has_ridges(run.options.method) && !run.options.on_pattern) recentre(run);
+  if (weighs_grain(run)) recentre(run);
 }
 
 /// Nobody said how wide the stripes are, and the method can tell line by line.

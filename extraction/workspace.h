@@ -13,6 +13,7 @@
 #include "extraction/follow/own_scale.h"
 #include "extraction/kernels/kernels.h"
 #include "extraction/lines/curvature_bias.h"
+#include "extraction/lines/end_cuts.h"
 #include "extraction/lines/faint_lines.h"
 #include "extraction/lines/line_asymmetry.h"
 #include "extraction/lines/line_ends.h"
@@ -46,6 +47,7 @@ struct ExtractionWorkspace {
   SmoothingWorkspace smoothing;
   LineEndWorkspace ends;
   BendWorkspace bends;
+  EndCutWorkspace end_cuts;
   OwnScaleWorkspace<std::uint8_t> own_scale8;
   OwnScaleWorkspace<std::uint16_t> own_scale16;
   TrackWorkspace track;
