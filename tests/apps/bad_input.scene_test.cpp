@@ -70,7 +70,7 @@ class BadInput : public ::testing::Test {
   static std::optional<std::string> prefix(const std::string& user) {
     if (user.starts_with("limited")) return "ulimit -f 16; ";
     if (!user.starts_with("as nobody") || geteuid() != 0) return "";
-    if (std::system("setpriv --reuid=65534 --regid=65534 --clear-groups test -x " LIGHTSTRIPE_BINARY) != 0)
+    if (std::system("setpriv --reuid=65534 --regid=65534 --clear-groups test -x " LIGHTSTRIPE_COMMAND) != 0)
       return std::nullopt;
     return "setpriv --reuid=65534 --regid=65534 --clear-groups ";
   }
@@ -95,7 +95,7 @@ class BadInput : public ::testing::Test {
     const std::string in_folder = "cd " + quoted(work.path()) + " && ";
     for (const auto& line : test.preparation)
       ASSERT_EQ(std::system((in_folder + line).c_str()), 0) << test.name << ": " << line;
-    const auto result = run_shell(in_folder + *before + LIGHTSTRIPE_BINARY + " " + test.arguments);
+    const auto result = run_shell(in_folder + *before + LIGHTSTRIPE_COMMAND + " " + test.arguments);
     EXPECT_EQ(result.exit_code, test.exit_code) << test.name;
     EXPECT_EQ(result.err, test.err) << test.name;
     if (test.exit_code != 1) return;

@@ -52,7 +52,7 @@ TemporaryFolder* Cli::folder_ = nullptr;
 TEST(Program, StartsWithoutOpencvsCodecs) {
   // They stand on 200 shared libraries: half of the program's start. Who calls them goes through
   // io/opencv_codecs.h.
-  const auto needed = run_shell("readelf -d " + std::string(LIGHTSTRIPE_BINARY));
+  const auto needed = run_shell("readelf -d " + std::string(LIGHTSTRIPE_COMMAND));
   ASSERT_EQ(needed.exit_code, 0) << needed.err;
   EXPECT_THAT(needed.out, HasSubstr("libopencv_core"));
   for (const char* codecs : {"imgcodecs", "videoio", "highgui"})

@@ -52,6 +52,10 @@ struct CommandResult {
 
 inline std::string quoted(const std::filesystem::path& path) { return "'" + path.string() + "'"; }
 
+/// Begins a line of the shell in which `lightstripe` is the program of this build.
+inline const std::string kProgramOnPath =
+    "PATH=" + quoted(std::filesystem::path(LIGHTSTRIPE_BINARY).parent_path()) + ":$PATH; ";
+
 /// A line for the shell.
 inline CommandResult run_shell(const std::string& line) {
   const TemporaryFolder folder;
@@ -62,7 +66,7 @@ inline CommandResult run_shell(const std::string& line) {
 
 /// `arguments` as one would type them after `lightstripe`.
 inline CommandResult run_lightstripe(const std::string& arguments) {
-  return run_shell(std::string(LIGHTSTRIPE_BINARY) + " " + arguments);
+  return run_shell(std::string(LIGHTSTRIPE_COMMAND) + " " + arguments);
 }
 
 }  // namespace lightstripe

@@ -19,7 +19,7 @@ const std::string kSource = LIGHTSTRIPE_SOURCE_DIR;
 
 std::string generated(const std::string& options, const std::filesystem::path& out) {
   const std::string command =
-      std::string(LIGHTSTRIPE_BINARY) + " generate conformance " + options + " -o '" + out.string() + "'";
+      std::string(LIGHTSTRIPE_COMMAND) + " generate conformance " + options + " -o '" + out.string() + "'";
   EXPECT_EQ(std::system(command.c_str()), 0) << command;
   return text_of(out);
 }

@@ -44,8 +44,8 @@ TEST_P(ConicityColumns, AreMet) {
   if (!std::ifstream(kFolder + "rail_A.csv")) GTEST_SKIP() << "reference columns not present";
   const Case& one = GetParam();
   const std::string out = ::testing::TempDir() + "conicity_" + one.name + ".csv";
-  const std::string command = std::string(LIGHTSTRIPE_BINARY) + " conicity --quiet --wheel " + kFolder +
-                              "wheel_" + one.wheel + ".csv --rail " + kFolder + "rail_A.csv --gauge " +
+  const std::string command = std::string(LIGHTSTRIPE_COMMAND) + " conicity --quiet --wheel '" + kFolder +
+                              "wheel_" + one.wheel + ".csv' --rail '" + kFolder + "rail_A.csv' --gauge " +
                               one.gauge + " --radius-difference " + one.radius_difference + " --draws 0 -o " +
                               out;
   ASSERT_EQ(std::system(command.c_str()), 0) << command;

@@ -68,7 +68,7 @@ TEST(HugeInputs, TwoHundredThousandEmptyPagesEndSoon) {
            {"extract p.tif -o s.csv", 1, "p.tif: has no pixels"},
            {"record p.tif -o rec --seconds 1", 3, "no whole frame arrived"}}) {
     const auto begin = std::chrono::steady_clock::now();
-    const auto result = run_shell("cd " + quoted(folder.path()) + " && " LIGHTSTRIPE_BINARY " " + command);
+    const auto result = run_shell("cd " + quoted(folder.path()) + " && " LIGHTSTRIPE_COMMAND " " + command);
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
     EXPECT_EQ(result.exit_code, code) << command;
     EXPECT_THAT(result.err, HasSubstr(sentence)) << command;
@@ -84,7 +84,7 @@ TEST(HugeInputs, EndlessDevicesAreRefusedByEveryReader) {
         "merge /dev/zero -o c.csv", "simulate /dev/zero -o d", "verify /dev/zero --rig r.yaml",
         "conicity --wheel /dev/zero --rail 60E1 -o c.csv"}) {
     const auto result =
-        run_shell("cd " + quoted(folder.path()) + " && timeout 20 " LIGHTSTRIPE_BINARY " " + command);
+        run_shell("cd " + quoted(folder.path()) + " && timeout 20 " LIGHTSTRIPE_COMMAND " " + command);
     EXPECT_EQ(result.exit_code, 1) << command;
     EXPECT_THAT(result.err, HasSubstr("error: /dev/zero: ")) << command;
   }
@@ -94,7 +94,7 @@ TEST(HugeInputs, EndlessDevicesAreRefusedByEveryReader) {
 class SignalledCommands : public ::testing::Test {
  protected:
   static CommandResult in(const fs::path& folder, const std::string& line) {
-    return run_shell("cd " + quoted(folder) + "; LS='" LIGHTSTRIPE_BINARY "'; " + line);
+    return run_shell("cd " + quoted(folder) + "; " + kProgramOnPath + line);
   }
 };
 
@@ -102,10 +102,10 @@ TEST_F(SignalledCommands, LeaveNothingTemporaryBehind) {
   const TemporaryFolder folder;
   ASSERT_EQ(
       run_lightstripe("simulate testdata/one_sensor.yaml --quiet -o " + quoted(folder.path())).exit_code, 0);
-  ASSERT_EQ(
-      in(folder.path(), "cp truth/rig.yaml . && $LS reconstruct scan.yaml -o c.ply --profiles p.csv --quiet")
-          .exit_code,
-      0);
+  ASSERT_EQ(in(folder.path(),
+               "cp truth/rig.yaml . && lightstripe reconstruct scan.yaml -o c.ply --profiles p.csv --quiet")
+                .exit_code,
+            0);
   int ended_by_signal = 0;
   for (const std::string command :
        {"extract scan/solo/*.png --overlay o/v -o o/s.csv",
@@ -119,8 +119,8 @@ TEST_F(SignalledCommands, LeaveNothingTemporaryBehind) {
     write_text(folder / "testdata_scene.yaml", text_of(LIGHTSTRIPE_SOURCE_DIR "/testdata/one_sensor.yaml"));
     for (const double after : {0.12, 0.3}) {
       fs::create_directories(folder / "o");
-      const auto result = in(folder.path(), "timeout -s TERM " + std::to_string(after) + " $LS " + command +
-                                                " >/dev/null 2>&1; echo $?");
+      const auto result = in(folder.path(), "timeout -s TERM " + std::to_string(after) + " lightstripe " +
+                                                command + " >/dev/null 2>&1; echo $?");
       EXPECT_THAT(result.out, Not(HasSubstr("134"))) << command;
       ended_by_signal += result.out == "124\n" ? 1 : 0;
       for (const auto& left : fs::recursive_directory_iterator(folder / "o"))
@@ -139,7 +139,7 @@ TEST_F(SignalledCommands, StatusLinesAreAsNarrowAsTheTerminal) {
   ASSERT_EQ(
       run_lightstripe("simulate testdata/one_sensor.yaml --quiet -o " + quoted(folder.path())).exit_code, 0);
   write_text(folder / "run.sh",
-             "stty cols 30\n" LIGHTSTRIPE_BINARY " record 'scan/solo/*.png?frame_rate=5' -o rec\n");
+             "stty cols 30\n" LIGHTSTRIPE_COMMAND " record 'scan/solo/*.png?frame_rate=5' -o rec\n");
   const auto shown = in(folder.path(), "script -qec 'sh run.sh' /dev/null < /dev/null");
   std::stringstream text(shown.out);
   int lines = 0;

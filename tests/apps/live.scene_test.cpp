@@ -170,7 +170,7 @@ TEST_F(Live, WhatCannotBeOpenedIsNamed) {
 
 TEST_F(Live, AFullDiskEndsTheRecordingAndLeavesNoHalfPicture) {
   // 100 blocks of 1024 bytes: a picture of 480 x 350 is larger. As on a full disk, write() fails.
-  const auto result = run_shell("ulimit -f 100; " + std::string(LIGHTSTRIPE_BINARY) + " record " +
+  const auto result = run_shell("ulimit -f 100; " + std::string(LIGHTSTRIPE_COMMAND) + " record " +
                                 pictures() + " -o " + quoted(at("full")));
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_THAT(result.err, HasSubstr("0000000.pgm: cannot be written"));
@@ -180,7 +180,7 @@ TEST_F(Live, AFullDiskEndsTheRecordingAndLeavesNoHalfPicture) {
 }
 
 TEST_F(Live, CtrlCEndsARecordingCleanly) {
-  const auto result = run_shell("timeout --signal=INT 1 " + std::string(LIGHTSTRIPE_BINARY) + " record " +
+  const auto result = run_shell("timeout --signal=INT 1 " + std::string(LIGHTSTRIPE_COMMAND) + " record " +
                                 quoted(at("data/scan/solo/*.png?frame_rate=2")) + " -o " +
                                 quoted(at("stopped")) + " & wait $!");
   EXPECT_THAT(result.out, HasSubstr("of them whole -> ")) << result.err;

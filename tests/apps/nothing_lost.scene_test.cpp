@@ -22,8 +22,6 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
 
-constexpr const char* kBinary = LIGHTSTRIPE_BINARY;
-
 /// Path and bytes of every file.
 std::map<std::string, std::string> contents(const fs::path& folder) {
   std::map<std::string, std::string> out;
@@ -51,11 +49,11 @@ class NothingLost : public ::testing::Test {
   static fs::path at(const std::string& name) { return *folder_ / "d" / name; }
   /// In the folder of the simulated session.
   static CommandResult in(const std::string& arguments) {
-    return run_shell("cd " + quoted(*folder_ / "d") + " && " + kBinary + " " + arguments);
+    return run_shell("cd " + quoted(*folder_ / "d") + " && " + LIGHTSTRIPE_COMMAND + " " + arguments);
   }
-  /// A line of the shell there, with $LS for the program.
+  /// A line of the shell there, in which `lightstripe` is the program.
   static CommandResult shell(const std::string& line) {
-    return run_shell("cd " + quoted(*folder_ / "d") + "; LS='" + kBinary + "'; " + line);
+    return run_shell("cd " + quoted(*folder_ / "d") + "; " + kProgramOnPath + line);
   }
 
  private:
@@ -151,10 +149,11 @@ TEST_F(NothingLost, AShorterSimulationDeletesItsOwnPicturesOnly) {
 
 TEST_F(NothingLost, TwoRunsWithOneTableDoNotMixIt) {
   const auto result = shell(
-      "rm -f t1.* t2.*; $LS reconstruct scan.yaml -o t1.ply --profiles t.csv --quiet --threads 1 & first=$!; "
+      "rm -f t1.* t2.*; lightstripe reconstruct scan.yaml -o t1.ply --profiles t.csv --quiet --threads 1 & "
+      "first=$!; "
       "while [ ! -e t.partial.csv ] && kill -0 $first 2>/dev/null; do :; done; kill -STOP $first "
       "2>/dev/null; "
-      "$LS reconstruct scan.yaml -o t2.ply --profiles t.csv --quiet; second=$?; "
+      "lightstripe reconstruct scan.yaml -o t2.ply --profiles t.csv --quiet; second=$?; "
       "kill -CONT $first 2>/dev/null; wait $first; echo $? $second; cmp t.csv p.csv");
   // The first may be over before it is stopped: then both are done one after the other.
   EXPECT_THAT(result.out, ::testing::AnyOf(StartsWith("0 1\n"), StartsWith("0 0\n"))) << result.err;
@@ -165,8 +164,8 @@ TEST_F(NothingLost, TwoRunsWithOneTableDoNotMixIt) {
 }
 
 TEST_F(NothingLost, ALockedPartialFileIsSeen) {
-  const auto result =
-      shell("rm -f l.*; (flock 9; $LS reconstruct scan.yaml -o l.ply --profiles l.csv) 9>l.partial.csv");
+  const auto result = shell(
+      "rm -f l.*; (flock 9; lightstripe reconstruct scan.yaml -o l.ply --profiles l.csv) 9>l.partial.csv");
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_THAT(result.err, HasSubstr("l.csv: is being written by another run"));
   EXPECT_FALSE(fs::exists(at("l.ply")));
@@ -176,14 +175,14 @@ TEST_F(NothingLost, ALockedPartialFileIsSeen) {
 TEST_F(NothingLost, PicturesThatWereRecordedAnewEndAResume) {
   fs::copy(at(""), at("../anew"), fs::copy_options::recursive);
   // A journal of the old pictures, made by killing a run at its first entry.
-  const auto killed =
-      run_shell("cd " + quoted(at("../anew")) + "; LS='" + kBinary +
-                "'; for try in 1 2 3 4 5 6 7 8; do rm -f k.*; $LS reconstruct scan.yaml -o k.ply "
-                "--checkpoint 0 --threads 1 --quiet & "
-                "while [ ! -s k.partial.journal ] && kill -0 $! 2>/dev/null; do :; done; kill -KILL $!; wait "
-                "$! 2>/dev/null; "
-                "[ -s k.partial.journal ] && break; done; [ -s k.partial.journal ] || exit 9; "
-                "touch -d '2001-01-01' scan/solo/0002.png; $LS reconstruct scan.yaml -o k.ply --resume");
+  const auto killed = run_shell(
+      "cd " + quoted(at("../anew")) + "; " + kProgramOnPath +
+      "for try in 1 2 3 4 5 6 7 8; do rm -f k.*; lightstripe reconstruct scan.yaml -o k.ply "
+      "--checkpoint 0 --threads 1 --quiet & "
+      "while [ ! -s k.partial.journal ] && kill -0 $! 2>/dev/null; do :; done; kill -KILL $!; wait "
+      "$! 2>/dev/null; "
+      "[ -s k.partial.journal ] && break; done; [ -s k.partial.journal ] || exit 9; "
+      "touch -d '2001-01-01' scan/solo/0002.png; lightstripe reconstruct scan.yaml -o k.ply --resume");
   if (killed.exit_code == 9) GTEST_SKIP() << "the run is too quick to be killed here";
   EXPECT_EQ(killed.exit_code, 1) << killed.err;
   EXPECT_THAT(killed.err, HasSubstr("resume"));
@@ -193,12 +192,13 @@ TEST_F(NothingLost, PicturesThatWereRecordedAnewEndAResume) {
 TEST_F(NothingLost, AClosedPipeOrAFullLogCostsNoResult) {
   ASSERT_EQ(in("calibrate calibration.yaml -o whole.yaml --quiet").exit_code, 0);
   for (const std::string line :
-       {"$LS calibrate calibration.yaml -o x.yaml | true; exit ${PIPESTATUS[0]}",
-        "$LS calibrate calibration.yaml -o x.yaml >/dev/full", "$LS calibrate calibration.yaml -o x.yaml >&-",
-        "$LS calibrate calibration.yaml -o x.yaml >&- 2>&- <&-",
-        "$LS calibrate calibration.yaml -o x.yaml 2>/dev/full"}) {
+       {"lightstripe calibrate calibration.yaml -o x.yaml | true; exit ${PIPESTATUS[0]}",
+        "lightstripe calibrate calibration.yaml -o x.yaml >/dev/full",
+        "lightstripe calibrate calibration.yaml -o x.yaml >&-",
+        "lightstripe calibrate calibration.yaml -o x.yaml >&- 2>&- <&-",
+        "lightstripe calibrate calibration.yaml -o x.yaml 2>/dev/full"}) {
     fs::remove(at("x.yaml"));
-    const auto result = shell("exec bash -c 'LS=" + std::string(kBinary) + "; " + line + "'");
+    const auto result = shell("exec bash -c '" + line + "'");
     EXPECT_EQ(result.exit_code, 0) << line << "\n" << result.err;
     EXPECT_TRUE(text_of(at("x.yaml")) == text_of(at("whole.yaml"))) << line;
   }
@@ -208,7 +208,8 @@ TEST_F(NothingLost, MessagesNeverGoIntoAResult) {
   ASSERT_EQ(in("extract scan/solo/*.png -o whole.csv").exit_code, 0);
   for (const std::string closed : {">&-", "2>&-", ">&- 2>&-", "<&- >&- 2>&-"}) {
     fs::remove(at("x.csv"));
-    EXPECT_EQ(shell("$LS extract scan/solo/*.png --explain -o x.csv " + closed).exit_code, 0) << closed;
+    EXPECT_EQ(shell("lightstripe extract scan/solo/*.png --explain -o x.csv " + closed).exit_code, 0)
+        << closed;
     EXPECT_TRUE(text_of(at("x.csv")) == text_of(at("whole.csv"))) << closed;
   }
 }
@@ -227,7 +228,7 @@ TEST_F(NothingLost, PipesAreRefusedByNameAndNeverWaitedFor) {
         "measure pipe.csv --kind rail", "measure pipe.ban --kind rail", "merge pipe.ply -o x.ply",
         "view pipe.ply -o x.html", "reconstruct scan.yaml --rig pipe.yaml -o x.ply",
         "measure /dev/zero --kind rail", "conicity --wheel S1002 --rail pipe.ban"}) {
-    const auto result = shell("timeout 20 $LS " + command);
+    const auto result = shell("timeout 20 lightstripe " + command);
     EXPECT_EQ(result.exit_code, 1) << command << result.err;
     EXPECT_THAT(result.err, ::testing::AnyOf(HasSubstr("is a pipe"), HasSubstr("is a device"))) << command;
   }
@@ -251,7 +252,8 @@ TEST_F(NothingLost, PicturesNamedWithStarsQuotesAndFormulas) {
   for (const std::string name : {"a*.png", "=cmd|' C calc'!A0.png", "it's {a}, \"b\".png"})
     fs::copy_file(at("scan/solo/0001.png"), at("odd") / name, fs::copy_options::skip_existing);
   const auto result = shell(
-      "cd odd; $LS extract 'a*.png' \"=cmd|' C calc'!A0.png\" \"it's {a}, \\\"b\\\".png\" -o ../odd.csv");
+      "cd odd; lightstripe extract 'a*.png' \"=cmd|' C calc'!A0.png\" \"it's {a}, \\\"b\\\".png\" -o "
+      "../odd.csv");
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const std::string table = text_of(at("odd.csv"));
   EXPECT_THAT(table, HasSubstr("\na*.png,"));
@@ -262,7 +264,7 @@ TEST_F(NothingLost, PicturesNamedWithStarsQuotesAndFormulas) {
 TEST_F(NothingLost, RunRecordsAreYamlWhateverTheNames) {
   const std::string name = "q'\"{}: #,\n\xe2\x80\xa8.csv";
   fs::copy_file(at("p.csv"), at(name), fs::copy_options::skip_existing);
-  const auto result = shell("$LS measure " + quoted("q") + "*.csv --kind rail -o odd_m.csv");
+  const auto result = shell("lightstripe measure " + quoted("q") + "*.csv --kind rail -o odd_m.csv");
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const auto parsed = shell(
       "/usr/bin/python3 -c 'import yaml,sys; d=yaml.safe_load(open(\"odd_m.csv.run.yaml\")); "
@@ -275,7 +277,8 @@ TEST_F(NothingLost, RunRecordsAreYamlWhateverTheNames) {
 
 TEST_F(NothingLost, ARecordingsNotesAreYamlWhateverTheSourcesName) {
   const auto result = shell(
-      "rm -rf \"it's: {\" quoted; cp -r scan/solo \"it's: {\"; $LS record \"it's: {/*.png\" -o quoted "
+      "rm -rf \"it's: {\" quoted; cp -r scan/solo \"it's: {\"; lightstripe record \"it's: {/*.png\" -o "
+      "quoted "
       "--quiet && "
       "/usr/bin/python3 -c 'import yaml; print(yaml.safe_load(open(\"quoted/record.yaml\"))[\"source\"])'");
   if (result.err.find("No module") != std::string::npos) GTEST_SKIP() << "no Python yaml";
@@ -288,7 +291,8 @@ TEST_F(NothingLost, ASignalLeavesNoTemporaryFile) {
        {"bench scan/solo/0001.png --repeat 100000 -o signals/b.csv",
         "extract $(for i in $(seq 300); do echo scan/solo/0001.png; done) -o signals/s.csv --threads 1"}) {
     for (const std::string signal : {"TERM", "INT", "HUP"}) {
-      const auto result = shell("timeout -s " + signal + " 0.3 $LS " + command + " >/dev/null 2>&1; echo $?");
+      const auto result =
+          shell("timeout -s " + signal + " 0.3 lightstripe " + command + " >/dev/null 2>&1; echo $?");
       EXPECT_THAT(result.out, Not(HasSubstr("134"))) << command;
       for (const auto& left : fs::directory_iterator(at("signals")))
         EXPECT_THAT(left.path().filename().string(), Not(HasSubstr(".tmp-"))) << command << " " << signal;
@@ -306,7 +310,7 @@ TEST_F(NothingLost, AFullDiskAtTheVeryStartLeavesNothing) {
         "generate board -o full/b.svg"}) {
     fs::remove_all(at("full"));
     fs::create_directories(at("full"));
-    EXPECT_EQ(shell("ulimit -f 0; exec $LS " + command + " >&- 2>&-").exit_code, 1) << command;
+    EXPECT_EQ(shell("ulimit -f 0; exec lightstripe " + command + " >&- 2>&-").exit_code, 1) << command;
     EXPECT_TRUE(fs::is_empty(at("full"))) << command;
   }
 }
@@ -321,7 +325,7 @@ TEST_F(NothingLost, AFileOrLinkInAFoldersPlaceStays) {
       EXPECT_EQ(text_of(at(place)), "his") << command << place;
       EXPECT_TRUE(fs::is_symlink(at("a_link"))) << command << place;
     }
-  EXPECT_EQ(shell("ulimit -f 0; exec $LS simulate truth/scene.yaml -o empty >&- 2>&-").exit_code, 1);
+  EXPECT_EQ(shell("ulimit -f 0; exec lightstripe simulate truth/scene.yaml -o empty >&- 2>&-").exit_code, 1);
   EXPECT_TRUE(fs::exists(at("empty"))) << "his own folder";
 }
 
@@ -349,7 +353,8 @@ TEST_F(NothingLost, MistypedCommandsAndValuesGetOurWords) {
 TEST_F(NothingLost, TheSameSessionGivesTheSameRigInThirtyEnvironments) {
   const auto result = shell(
       "for i in $(seq 30); do env -i PATH=\"$PATH\" PAD=$(head -c $((i * 7)) /dev/zero | tr '\\0' x) "
-      "MALLOC_ARENA_MAX=$((i % 3 + 1)) $LS calibrate calibration.yaml -o e.yaml --quiet --threads $((i % 3 + "
+      "MALLOC_ARENA_MAX=$((i % 3 + 1)) lightstripe calibrate calibration.yaml -o e.yaml --quiet --threads "
+      "$((i % 3 + "
       "1)) || exit 5; "
       "cksum < e.yaml; done | sort -u | wc -l");
   EXPECT_EQ(result.out, "1\n") << result.err;

@@ -89,7 +89,7 @@ class Recordings : public ::testing::Test {
     const int err = open(at("err").c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
     dup2(err, STDERR_FILENO);
     const std::string line =
-        "exec " + std::string(LIGHTSTRIPE_BINARY) + " " + command("scan.yaml", output, more);
+        "exec " + std::string(LIGHTSTRIPE_COMMAND) + " " + command("scan.yaml", output, more);
     execl("/bin/sh", "sh", "-c", line.c_str(), nullptr);
     _exit(127);
   }
@@ -254,7 +254,7 @@ TEST_F(Recordings, TwoRunsDoNotWriteTheSameFiles) {
   if (child == 0) {
     std::freopen("/dev/null", "w", stdout);
     const std::string line =
-        "exec " + std::string(LIGHTSTRIPE_BINARY) + " " + command("scan.yaml", "twice", "--threads 1");
+        "exec " + std::string(LIGHTSTRIPE_COMMAND) + " " + command("scan.yaml", "twice", "--threads 1");
     execl("/bin/sh", "sh", "-c", line.c_str(), nullptr);
     _exit(127);
   }

@@ -46,7 +46,7 @@ TEST(Calibrate, GivesTheSameBytesInThirtyEnvironments) {
   for (int run = 0; run < kRuns; ++run) {
     const std::string where = environment(run, fixed);
     const CommandResult done =
-        run_shell(fmt::format("{}{} calibrate {} -o {} --threads {}", where, LIGHTSTRIPE_BINARY,
+        run_shell(fmt::format("{}{} calibrate {} -o {} --threads {}", where, LIGHTSTRIPE_COMMAND,
                               quoted(folder / "session.yaml"), quoted(folder / "rig.yaml"), 1 + run % 6));
     ASSERT_EQ(done.exit_code, 0) << where << done.err;
     const std::string rig = text_of(folder / "rig.yaml");
