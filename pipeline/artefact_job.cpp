@@ -257,8 +257,9 @@ ArtefactResult verify_artefact(const ArtefactJob& job, const ProgressCallback& p
   }
   if (spec.kind != Artefact::kStep)
     result.sheet_error_mm =
-        sheet_error_mm(seen.sheet_sigma(), job.spec.size_mm,
-                       spec.section ? Eigen::Vector3d::UnitX() : measurement->axis, sheet_normal(job.rig));
+        kLeftInTheMiddle * sheet_error_mm(seen.sheet_sigma(), job.spec.size_mm,
+                                          spec.section ? Eigen::Vector3d::UnitX() : measurement->axis,
+                                          sheet_normal(job.rig));
   const double shared_mm = std::hypot(seen.mean_sigma(), job.size_sigma_mm, result.sheet_error_mm);
   ArtefactCheck check = check_of(job, *measurement, shared_mm);
   result.history = same_body(before, check);

@@ -9,7 +9,7 @@
 
 #include "core/error.h"
 #include "reconstruct/laser_lines.h"
-#include "reconstruct/sheet_thickness.h"
+#include "reconstruct/sheet_middle.h"
 
 namespace lightstripe {
 namespace {

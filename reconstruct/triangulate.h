@@ -32,7 +32,7 @@ Rigid3 result_from_rig(const Motion& motion, const FramePosition& position);
 void add_outside_range(const OutsideRange& more, std::vector<OutsideRange>& all);
 
 /// Appends the points of one sensor's stripes to the profile, put right for the sheet's thickness
-/// (sheet_thickness.h). Stripe points whose ray cannot be undistorted
+/// (sheet_middle.h). Stripe points whose ray cannot be undistorted
 /// or misses the plane, and those of a line without a laser plane (decide_laser_planes), are counted in
 /// Profile::num_missed, those that may lie outside the depth range in Profile::outside as well.
 ///

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The lightstripe authors
 // SPDX-License-Identifier: Apache-2.0
-#include "reconstruct/sheet_thickness.h"
+#include "reconstruct/sheet_middle.h"
 
 #include <gtest/gtest.h>
 
@@ -25,8 +25,8 @@ const Plane kOblique = plane_along(1, 1);
 
 constexpr int kLength = 121;                  // points, the middle one in the picture's middle
 constexpr std::size_t kMiddle = kLength / 2;  // y = 240
+constexpr double kBlur = 0.64;                // px^2, of lens and pixels
 constexpr double kVariance = 3.5;             // px^2, of the sheet's light along d = (1, 1) / sqrt(2)
-constexpr double kBlur = 1.0 / 3;             // px^2, of lens and pixels
 
 /// A line that runs down the picture; centre and strength by the rows from the middle on.
 std::vector<StripePoint> line_of(const std::function<double(double)>& centre,
@@ -67,14 +67,14 @@ double middle_of_light(double (*centre)(double), double (*strength)(double)) {
   return moment / light;
 }
 
-TEST(SheetThickness, FadingLightAndBendsAreUndone) {
+TEST(SheetMiddle, FadingLightAndBendsAreUndone) {
   EXPECT_NEAR(shifts_of(line_of(straight, fading))[kMiddle], 0.5 * kVariance * 0.03, 1e-3);
   EXPECT_NEAR(shifts_of(line_of(straight, fading))[kMiddle], -middle_of_light(straight, fading), 1e-3);
   EXPECT_NEAR(shifts_of(line_of(bent, even))[kMiddle], 0.25 * kVariance / 60, 1e-3);
   EXPECT_NEAR(shifts_of(line_of(bent, even))[kMiddle], -middle_of_light(bent, even), 1e-3);
 }
 
-TEST(SheetThickness, APointMovesToTheSamePlaceWhicheverWayItsNormalPoints) {
+TEST(SheetMiddle, APointMovesToTheSamePlaceWhicheverWayItsNormalPoints) {
   auto line = line_of(straight, fading);
   const double shift = shifts_of(line)[kMiddle];
   for (StripePoint& p : line) p.normal_x = -p.normal_x, p.normal_y = -p.normal_y;
@@ -84,7 +84,7 @@ TEST(SheetThickness, APointMovesToTheSamePlaceWhicheverWayItsNormalPoints) {
   EXPECT_NEAR(shifts_of(line, {-kOblique.normal, -kOblique.offset})[kMiddle], -shift, 5e-4);
 }
 
-TEST(SheetThickness, NothingMovesWhereNothingTells) {
+TEST(SheetMiddle, NothingMovesWhereNothingTells) {
   const auto all_are_zero = [](const std::vector<double>& shifts) {
     return std::ranges::all_of(shifts, [](double shift) { return std::abs(shift) < 1e-9; });
   };
@@ -100,7 +100,7 @@ TEST(SheetThickness, NothingMovesWhereNothingTells) {
   EXPECT_TRUE(all_are_zero(shifts_of(line)));
 }
 
-TEST(SheetThickness, EndsGapsAndBridgesStay) {
+TEST(SheetMiddle, EndsGapsAndBridgesStay) {
   auto line = line_of(straight, fading);
   line[40].flags = kStripeBridged;
   for (std::size_t k = 80; k < line.size(); ++k) line[k].y += 10;
@@ -110,7 +110,7 @@ TEST(SheetThickness, EndsGapsAndBridgesStay) {
 }
 
 /// Grain makes strengths go up and down like fading light, and tells nothing of the sheet.
-TEST(SheetThickness, GrainIsNoFading) {
+TEST(SheetMiddle, GrainIsNoFading) {
   Random random(3);
   std::vector<double> noise;
   for (int k = 0; k < kLength + 20; ++k) noise.push_back(random.gaussian());
