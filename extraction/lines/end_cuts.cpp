@@ -190,7 +190,7 @@ void move_end(const CutEnd& end, const CutScatter& scatter, double sigma, double
     StripePoint& p = end[i];
     const double fade = std::min(1.0, static_cast<double>(reach - i) / (kFadeIn * sigma));
     const double shift = stripe * shift_of_cut_off(1 - mean.profile / scatter.profile),
-                 own = kEndDoubt * p.sigma_px, trust = own * own / (own * own + shift * shift);
+                 own = kEndDoubt * p.sigma_px, trust = own * own / std::max(1e-12, own * own + shift * shift);
     const double share = fade * trust * (1 - variance / (off * off));
     p.x += share * off * p.normal_x;
     p.y += share * off * p.normal_y;
