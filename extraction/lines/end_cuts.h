@@ -36,8 +36,8 @@ struct EndCutWorkspace {
 /// place): the scatter, and what the cuts see otherwise than the kernels all along the line, is that of cuts
 /// further in, of which neighbours share `grain_px` (CommonScatter). Where the light in the cuts is narrower
 /// than there, the end has cut it off obliquely, and the rest is not trusted as far as that shifts it.
-/// sigma_px grows by what both leave in doubt. Lines stay whose cuts hardly scatter (line_ends.h knows their
-/// ends better), and those that are too short to know.
+/// sigma_px becomes that of both together. Lines stay whose cuts hardly scatter (line_ends.h knows their ends
+/// better), those that are too short to know, and ends where the line leaves the picture.
 template <class T>
 void recentre_ends(ImageView<T> image, const DerivativeKernels& kernels, double grain_px, LineSet& lines,
                    EndCutWorkspace& workspace);

@@ -128,6 +128,17 @@ TEST(EndCuts, LinesWithoutScatterStay) {
   for (std::size_t i = 0; i < lines.points.size(); ++i) EXPECT_EQ(lines.points[i].x, before.points[i].x) << i;
 }
 
+/// The light goes on there: it has no end that the kernels could look past.
+TEST(EndCuts, LinesThatLeaveThePictureStayThere) {
+  const RealStripe stripe = grained(0);
+  const LineSet before = line_beside(stripe, drawn_aside, 1, 460);
+  LineSet lines = before;
+  EndCutWorkspace workspace;
+  recentre_ends(picture_of(stripe, 1).view(), make_derivative_kernels(kKernel), kGrain, lines, workspace);
+  for (std::size_t i = 0; i < 20; ++i) EXPECT_EQ(lines.points[i].x, before.points[i].x) << i;
+  EXPECT_NE(lines.points.back().x, before.points.back().x);
+}
+
 TEST(EndCuts, GapsAndBridgesNearAnEndLeaveItAsItIs) {
   const RealStripe stripe = grained(0);
   const LineSet before = line_beside(stripe, drawn_aside);
