@@ -47,10 +47,11 @@ Vector2d direction_at(const Camera& camera, const Plane& plane, const StripePoin
 
 Vector2d place_of(const StripePoint& p) { return {p.x, p.y}; }
 
-/// The line around one of its points.
+/// The line around one of its points, from the first to the last of these.
 struct Stretch {
+  std::size_t first = 0, last = 0;
   Vector2d tangent = Vector2d::UnitX(), normal = Vector2d::UnitY();
-  double length = 0;  ///< px, from the first of its points to the last
+  double length = 0;  ///< px
 };
 
 /// From `reach` points before to as many behind, fewer at the ends; a length of 0 where it has a gap.
@@ -62,7 +63,7 @@ Stretch stretch_at(std::span<const StripePoint> line, std::size_t i, std::size_t
   if (!(length > 0) || length > 1.5 * static_cast<double>(last - first)) return {};
   const Vector2d tangent = chord / length, across(tangent.y(), -tangent.x());
   const double side = across.dot(Vector2d(line[i].normal_x, line[i].normal_y)) < 0 ? -1 : 1;
-  return {tangent, side * across, length};
+  return {first, last, tangent, side * across, length};
 }
 
 /// By the two halves of a stretch, 1 / px.
@@ -127,14 +128,13 @@ double shift_at(const SeenSheet& seen, std::size_t i, double variance) {
   const auto width = static_cast<double>(seen.reach);
   const double whole = std::clamp((from_end / width - kEndBegins) / (kEndIsOver - kEndBegins), 0.0, 1.0);
   if (whole == 0) return 0;
-  const std::size_t first = i - std::min(i, seen.reach),
-                    last = std::min(i + seen.reach, seen.line.size() - 1);
   const Stretch stretch = stretch_at(seen.line, i, seen.reach);
-  if (!is_measured(seen.line[first]) || !is_measured(seen.line[i]) || !is_measured(seen.line[last]) ||
-      !(stretch.length > 0))
+  if (!(stretch.length > 0) || !is_measured(seen.line[stretch.first]) || !is_measured(seen.line[i]) ||
+      !is_measured(seen.line[stretch.last]))
     return 0;
-  const double along = seen.direction(i).dot(stretch.tangent), across = seen.direction(i).dot(stretch.normal);
-  const double fading = seen.change(first, last) / stretch.length;
+  const Vector2d direction = seen.direction(i);
+  const double along = direction.dot(stretch.tangent), across = direction.dot(stretch.normal);
+  const double fading = seen.change(stretch.first, stretch.last) / stretch.length;
   const double bend = curvature_at(seen.line, i, seen.reach).dot(stretch.normal);
   const double limit = kLargestShift * std::sqrt(variance);
   return whole * std::clamp(variance * along * (across * fading - 0.5 * along * bend), -limit, limit);
