@@ -33,8 +33,8 @@ void add_outside_range(const OutsideRange& more, std::vector<OutsideRange>& all)
 
 /// Appends the points of one sensor's stripes to the profile, put right for the sheet's thickness
 /// (sheet_middle.h). Stripe points whose ray cannot be undistorted or misses the plane, and those of a line
-/// without a laser plane (decide_laser_planes), are counted in Profile::num_missed, those that may lie outside
-/// the depth range in Profile::outside as well.
+/// without a laser plane (decide_laser_planes), are counted in Profile::num_missed, those that may lie
+/// outside the depth range in Profile::outside as well.
 ///
 /// u, v: y, z of the result (linear); y, z of the rig frame (poses); position along the axis and radius
 /// (rotary). sigma_mm: the stripe's sigma_px carried through lens and plane, its part square to the section
