@@ -41,6 +41,7 @@ py::dtype dtype_of(const StripePoint& p) {
       .add("strength", p.strength)
       .add("sigma_px", p.sigma_px)
       .add("intensity", p.intensity)
+      .add("fade_px", p.fade_px)
       .add("flags", p.flags)
       .dtype();
 }

@@ -27,6 +27,9 @@ constexpr double kEndBegins = 0.9, kEndIsOver = 1.8;
 /// Points between two places at which the plane's normal is projected: its direction turns by some degrees
 /// over a picture.
 constexpr std::size_t kProjected = 16;
+/// Of StripePoint::fade_px, which is for light that fades at half of its slope across the line as well (1
+/// sigma): without the sheet's part a quarter is left.
+constexpr double kLeftOfFade = 0.5;
 
 bool is_measured(const StripePoint& p) {
   return (p.flags & (kStripeBridged | kStripeSaturated)) == 0 && p.strength > 0;
@@ -123,44 +126,53 @@ double grain_of(const SeenSheet& seen, std::vector<double>& scratch) {
   return scatter * scatter / 3;
 }
 
-double shift_at(const SeenSheet& seen, std::size_t i, double variance) {
+SheetShift shift_at(const SeenSheet& seen, std::size_t i, double variance) {
   const auto from_end = static_cast<double>(std::min(i, seen.line.size() - 1 - i));
   const auto width = static_cast<double>(seen.reach);
   const double whole = std::clamp((from_end / width - kEndBegins) / (kEndIsOver - kEndBegins), 0.0, 1.0);
-  if (whole == 0) return 0;
+  if (whole == 0) return {};
   const Stretch stretch = stretch_at(seen.line, i, seen.reach);
   if (!(stretch.length > 0) || !is_measured(seen.line[stretch.first]) || !is_measured(seen.line[i]) ||
       !is_measured(seen.line[stretch.last]))
-    return 0;
+    return {};
   const Vector2d direction = seen.direction(i);
   const double along = direction.dot(stretch.tangent), across = direction.dot(stretch.normal);
   const double fading = seen.change(stretch.first, stretch.last) / stretch.length;
   const double bend = curvature_at(seen.line, i, seen.reach).dot(stretch.normal);
   const double limit = kLargestShift * std::sqrt(variance);
-  return whole * std::clamp(variance * along * (across * fading - 0.5 * along * bend), -limit, limit);
+  const double shift = std::clamp(variance * along * (across * fading - 0.5 * along * bend), -limit, limit);
+  return {whole * shift, whole};
 }
 
 }  // namespace
 
 void find_sheet_shifts(const Camera& camera, const Plane& plane, std::span<const StripePoint> line,
-                       std::vector<double>& shifts) {
-  shifts.assign(line.size(), 0.0);
+                       std::vector<SheetShift>& shifts) {
+  shifts.assign(line.size(), SheetShift{});
   if (line.size() < kFewestWidths) return;
-  for (std::size_t i = 0; i < line.size(); ++i) shifts[i] = line[i].width;
+  std::vector<double> scratch;
+  for (const StripePoint& p : line) scratch.push_back(p.width);
   SeenSheet seen;
   seen.line = line;
-  seen.reach = static_cast<std::size_t>(std::lround(std::clamp(upper_median(shifts), 3.0, 1e3)));
-  std::fill(shifts.begin(), shifts.end(), 0.0);
+  seen.reach = static_cast<std::size_t>(std::lround(std::clamp(upper_median(scratch), 3.0, 1e3)));
   if (line.size() < 4 * seen.reach) return;
   for (std::size_t i = 0; i < line.size(); i += kProjected)
     seen.directions.push_back(direction_at(camera, plane, line[i]));
   seen.directions.push_back(direction_at(camera, plane, line.back()));
-  std::vector<double> scratch;
   const double variance = sheet_variance(seen, scratch);
   if (!(variance > 0)) return;
   for (const StripePoint& p : line) seen.brightness.push_back(std::log(std::max(p.strength, 1e-9)));
   seen.grain = grain_of(seen, scratch);
   for (std::size_t i = 0; i < line.size(); ++i) shifts[i] = shift_at(seen, i, variance);
+}
+
+StripePoint in_sheet_middle(const StripePoint& p, const SheetShift& shift) {
+  StripePoint out = p;
+  out.x += shift.px * p.normal_x;
+  out.y += shift.px * p.normal_y;
+  const double undone = shift.told * (1 - kLeftOfFade * kLeftOfFade) * double{p.fade_px} * p.fade_px;
+  out.sigma_px = std::sqrt(std::max(0.0, p.sigma_px * p.sigma_px - undone));
+  return out;
 }
 
 }  // namespace lightstripe

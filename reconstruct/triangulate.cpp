@@ -138,7 +138,7 @@ void triangulate_stripes(const std::vector<Stripe>& stripes, const Rig& rig, int
   const FrameGeometry geometry{rig, position, of, of.rig_from_camera.rotation.toRotationMatrix(),
                                result_from_rig(rig.motion, position)};
   const auto decisions = decide_laser_planes(stripes, of);
-  std::vector<double> shifts;
+  std::vector<SheetShift> shifts;
   for (std::size_t line = 0; line < stripes.size(); ++line) {
     const auto& points = stripes[line].points;
     if (!decisions[line].plane) {
@@ -148,9 +148,7 @@ void triangulate_stripes(const std::vector<Stripe>& stripes, const Rig& rig, int
     const Plane& plane = of.laser_planes[static_cast<std::size_t>(*decisions[line].plane)];
     find_sheet_shifts(of.camera, plane, points, shifts);
     for (std::size_t i = 0; i < points.size(); ++i) {
-      StripePoint seen = points[i];
-      seen.x += shifts[i] * seen.normal_x;
-      seen.y += shifts[i] * seen.normal_y;
+      const StripePoint seen = in_sheet_middle(points[i], shifts[i]);
       const auto met = meet_plane(of.camera, plane, seen);
       if (!met) {
         ++profile.num_missed;

@@ -37,16 +37,16 @@ constexpr double kMostEndMisfit = 1.5;
 /// One line seen from one of its ends.
 struct EndView {
   std::span<StripePoint> points;
-  std::span<float> systematic;  ///< LineSet::systematic, of these points; empty: not known
+  std::span<float> fading;  ///< LineSet::fading, of these points; empty: not known
   bool from_back;
 
   std::size_t size() const { return points.size(); }
   /// What fades before `first` fades as it does there: the end itself is counted otherwise.
-  void continue_systematic(std::size_t first) const {
-    if (systematic.empty()) return;
-    const auto at = [&](std::size_t i) { return from_back ? systematic.size() - 1 - i : i; };
-    const float there = first < size() ? systematic[at(first)] : 0.0F;
-    for (std::size_t i = 0; i < std::min(first, size()); ++i) systematic[at(i)] = there;
+  void continue_fading(std::size_t first) const {
+    if (fading.empty()) return;
+    const auto at = [&](std::size_t i) { return from_back ? fading.size() - 1 - i : i; };
+    const float there = first < size() ? fading[at(first)] : 0.0F;
+    for (std::size_t i = 0; i < std::min(first, size()); ++i) fading[at(i)] = there;
   }
   StripePoint& operator[](std::size_t i) const { return points[from_back ? points.size() - 1 - i : i]; }
 };
@@ -201,7 +201,7 @@ void mend_end(const EndView& end, double sigma, double shared_px, EndsOnPrint on
   const Hypothesis& likeliest = *std::ranges::min_element(all, {}, &Hypothesis::strength_misfit);
   if (likeliest.light.inside >= kNoEnd) return;
   const std::size_t reach = std::ranges::max(all, {}, &Hypothesis::disturbed).disturbed;
-  end.continue_systematic(reach + scale);  // where fading was looked at over undisturbed points
+  end.continue_fading(reach + scale);  // where fading was looked at over undisturbed points
   const auto narrow_count = reach + static_cast<std::size_t>(kNarrowPart * sigma / step),
              count = reach + static_cast<std::size_t>(kWidePart * sigma / step);
   if (on_print == EndsOnPrint::kYes || end.size() <= count || !is_joined(end, count))
@@ -235,11 +235,11 @@ void mend_line_ends(const DerivativeKernels& kernels, EndsOnPrint on_print, Line
                     LineEndWorkspace& workspace) {
   for (const LineRange& r : lines.lines) {
     const std::span<StripePoint> line(lines.points.data() + r.begin, r.size());
-    const std::span<float> systematic = lines.systematic.size() == lines.points.size()
-                                            ? std::span(lines.systematic).subspan(r.begin, r.size())
-                                            : std::span<float>{};
-    mend_end({line, systematic, false}, kernels.sigma, r.shared_px, on_print, workspace.points);
-    mend_end({line, systematic, true}, kernels.sigma, r.shared_px, on_print, workspace.points);
+    const std::span<float> fading = lines.fading.size() == lines.points.size()
+                                        ? std::span(lines.fading).subspan(r.begin, r.size())
+                                        : std::span<float>{};
+    mend_end({line, fading, false}, kernels.sigma, r.shared_px, on_print, workspace.points);
+    mend_end({line, fading, true}, kernels.sigma, r.shared_px, on_print, workspace.points);
   }
 }
 

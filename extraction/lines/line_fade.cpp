@@ -60,10 +60,10 @@ void find_in_line(std::span<const StripePoint> points, double sigma, std::span<f
 }  // namespace
 
 void find_fade_errors(const DerivativeKernels& kernels, LineSet& lines, std::vector<float>& values) {
-  lines.systematic.assign(lines.points.size(), 0.0F);
+  lines.fading.assign(lines.points.size(), 0.0F);
   for (const LineRange& r : lines.lines)
     find_in_line(std::span(lines.points.data() + r.begin, r.size()), kernels.sigma,
-                 std::span(lines.systematic.data() + r.begin, r.size()), values);
+                 std::span(lines.fading.data() + r.begin, r.size()), values);
 }
 
 }  // namespace lightstripe

@@ -11,7 +11,7 @@
 
 namespace lightstripe {
 
-/// Sets `lines.systematic`. A stripe of standard deviation s across whose brightness changes by a factor
+/// Sets `lines.fading`. A stripe of standard deviation s across whose brightness changes by a factor
 /// exp(g) a pixel has its centre g s^2 aside. Only the change along the line is seen; that across it is taken
 /// for half of that, 1 sigma, as far as it exceeds what the grain of the whole line does. `values` is scratch
 /// memory.

@@ -7,13 +7,18 @@
 namespace lightstripe {
 
 void add_systematic_errors(LineSet& lines) {
-  if (lines.systematic.size() != lines.points.size()) return;  // not known
+  const bool has_systematic = lines.systematic.size() == lines.points.size(),
+             has_fading = lines.fading.size() == lines.points.size();
   for (const LineRange& r : lines.lines)
     for (std::size_t i = r.begin; i < r.end; ++i) {
-      const double error{lines.systematic[i]};
-      if (error > 0.1 * lines.points[i].sigma_px)
-        lines.points[i].sigma_px =
-            std::sqrt(lines.points[i].sigma_px * lines.points[i].sigma_px + error * error);
+      StripePoint& p = lines.points[i];
+      const float systematic = has_systematic ? lines.systematic[i] : 0.0F,
+                  fading = has_fading ? lines.fading[i] : 0.0F;
+      const double square = double{systematic} * systematic + double{fading} * fading;
+      const double own = p.sigma_px * p.sigma_px;
+      if (square <= 0.01 * own) continue;
+      p.sigma_px = std::sqrt(own + square);
+      p.fade_px = fading;
     }
 }
 

@@ -24,6 +24,7 @@ struct LineSet {
   std::vector<float>
       half_level_widths;          ///< px, one a point once they are measured: full width at half the peak
   std::vector<float> systematic;  ///< px, 1 sigma, one a point once known: what neighbours share, not scatter
+  std::vector<float> fading;      ///< px, 1 sigma, one a point once known: by find_fade_errors()
   std::vector<float> recentred;   ///< one a point or none: the share of its rows that grain_centres weighed
 
   void clear() {
@@ -31,11 +32,13 @@ struct LineSet {
     lines.clear();
     half_level_widths.clear();
     systematic.clear();
+    fading.clear();
     recentred.clear();
   }
 };
 
-/// Adds `lines.systematic` to the points' sigma_px. After smoothing, which takes sigma_px for scatter.
+/// Adds `lines.systematic` and `lines.fading` to the points' sigma_px, the latter as their fade_px. After
+/// smoothing, which takes sigma_px for scatter.
 void add_systematic_errors(LineSet& lines);
 
 }  // namespace lightstripe

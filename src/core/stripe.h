@@ -22,10 +22,11 @@ struct StripePoint {
   double y = 0;         ///< px
   double normal_x = 0;  ///< unit vector across the line
   double normal_y = 0;
-  double width = 0;        ///< px, full width 2w of the bright bar
-  double strength = 0;     ///< grey levels / px^2: minus the second derivative across the line at scale sigma
-  double sigma_px = 0;     ///< predicted 1-sigma error across the line, px
-  float intensity = 0;     ///< peak grey level above the background
+  double width = 0;     ///< px, full width 2w of the bright bar
+  double strength = 0;  ///< grey levels / px^2: minus the second derivative across the line at scale sigma
+  double sigma_px = 0;  ///< predicted 1-sigma error across the line, px
+  float intensity = 0;  ///< peak grey level above the background
+  float fade_px = 0;    ///< the part of sigma_px that fading light may have: who knows the sheet knows better
   std::uint8_t flags = 0;  ///< StripeFlag bits
 };
 

@@ -127,6 +127,8 @@ TEST(Speckle, WithoutItTheSectionIsThatOfTheSheetsMiddle) {
   // 0.0121 where the middle of the stripe was taken for it, on the crown's far side 0.01 to 0.02 off.
   EXPECT_LT(std::sqrt(all.squares / all.points), 0.011);
   EXPECT_LT(all.squares / all.predicted, 1.2);
+  // 0.52 where what the sheet does to fading light was counted although it was undone.
+  EXPECT_GT(all.squares / all.predicted, 0.6);
 }
 
 TEST(Speckle, TheDemosSceneOfMildSpeckleCanBeRun) {

@@ -71,13 +71,13 @@ TEST(LineEnds, WhatNoCutExplainsStays) {
 TEST(LineEnds, WhatFadesOverAShortLineIsNoOtherLines) {
   LineSet lines = straight_line();
   lines.lines = {{0, 37}, {37, 43}, {43, 80}};  // the one in the middle fades from end to end
-  lines.systematic.assign(80, 0.25F);
+  lines.fading.assign(80, 0.25F);
   for (std::size_t i = 37; i < 43; ++i) lines.points[i].strength = 0.1 + 1.5 * static_cast<double>(i - 37);
   for (StripePoint& p : lines.points) p.width = 7;
   LineEndWorkspace scratch;
   mend_line_ends(make_derivative_kernels(2), EndsOnPrint::kNo, lines, scratch);
-  for (const std::size_t i : {30, 36, 43, 49}) EXPECT_EQ(lines.systematic[i], 0.25F) << i;
-  EXPECT_EQ(lines.systematic[40], 0);  // nowhere is it whole
+  for (const std::size_t i : {30, 36, 43, 49}) EXPECT_EQ(lines.fading[i], 0.25F) << i;
+  EXPECT_EQ(lines.fading[40], 0);  // nowhere is it whole
 }
 
 TEST(LineEnds, OfShortLinesOnlySigmaGrows) {

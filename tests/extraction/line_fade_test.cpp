@@ -29,13 +29,13 @@ TEST(LineFade, CountsWhereTheStrengthChanges) {
   LineSet lines = stained_line();
   std::vector<float> scratch;
   find_fade_errors(make_derivative_kernels(2), lines, scratch);
-  ASSERT_EQ(lines.systematic.size(), 200U);
+  ASSERT_EQ(lines.fading.size(), 200U);
   // Half of s^2 = 4.08 times the change over four px, 2 (9.2 - 4.1) / (2 (9.2 + 4.1)) = 0.19 at the most.
-  EXPECT_NEAR(lines.systematic[101], 0.5 * 4.08 * 0.19, 0.12);
-  EXPECT_EQ(lines.systematic[30], 0);  // the grain of the whole line is no fading
-  EXPECT_EQ(lines.systematic[170], 0);
+  EXPECT_NEAR(lines.fading[101], 0.5 * 4.08 * 0.19, 0.12);
+  EXPECT_EQ(lines.fading[30], 0);  // the grain of the whole line is no fading
+  EXPECT_EQ(lines.fading[170], 0);
   add_systematic_errors(lines);
-  EXPECT_NEAR(lines.points[101].sigma_px, std::hypot(0.02, double{lines.systematic[101]}), 1e-6);
+  EXPECT_NEAR(lines.points[101].sigma_px, std::hypot(0.02, double{lines.fading[101]}), 1e-6);
   EXPECT_EQ(lines.points[30].sigma_px, 0.02);
 }
 

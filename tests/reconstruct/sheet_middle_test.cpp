@@ -49,9 +49,11 @@ double fading(double y) { return 10 * std::exp(0.03 * y); }
 double bent(double y) { return -y * y / 120; }  // radius 60 px
 
 std::vector<double> shifts_of(const std::vector<StripePoint>& line, const Plane& plane = kOblique) {
+  std::vector<SheetShift> found;
+  find_sheet_shifts(kCamera, plane, line, found);
+  EXPECT_EQ(found.size(), line.size());
   std::vector<double> shifts;
-  find_sheet_shifts(kCamera, plane, line, shifts);
-  EXPECT_EQ(shifts.size(), line.size());
+  for (const SheetShift& shift : found) shifts.push_back(shift.px);
   return shifts;
 }
 
@@ -107,6 +109,20 @@ TEST(SheetMiddle, EndsGapsAndBridgesStay) {
   const auto shifts = shifts_of(line);
   for (const std::size_t k : {0, 4, 40, 79, 80, 117, 120}) EXPECT_EQ(shifts[k], 0) << k;
   for (const std::size_t k : {20, 60, 100}) EXPECT_GT(shifts[k], 0.02) << k;
+}
+
+/// Light that fades by half of its slope across the line, of which the sheet's part is undone.
+TEST(SheetMiddle, SigmaLosesWhatTheSheetTells) {
+  auto line = line_of(straight, fading);
+  for (StripePoint& p : line) p.sigma_px = 0.05, p.fade_px = 0.04F;  // 0.03 by all else
+  std::vector<SheetShift> shifts;
+  find_sheet_shifts(kCamera, kOblique, line, shifts);
+  const StripePoint told = in_sheet_middle(line[kMiddle], shifts[kMiddle]);
+  EXPECT_NEAR(told.sigma_px, std::hypot(0.03, 0.02), 1e-6);
+  EXPECT_EQ(told.x, line[kMiddle].x + shifts[kMiddle].px);
+  EXPECT_EQ(in_sheet_middle(line[0], shifts[0]).sigma_px, 0.05);  // at the end nothing is told
+  find_sheet_shifts(kCamera, plane_along(0.2, 1), line, shifts);  // nor along the sheet
+  EXPECT_EQ(in_sheet_middle(line[kMiddle], shifts[kMiddle]).sigma_px, 0.05);
 }
 
 /// Grain makes strengths go up and down like fading light, and tells nothing of the sheet.
