@@ -23,6 +23,12 @@ cv::Mat excess(const std::array<cv::Mat, 3>& bgr, std::size_t plane) {
   return difference;
 }
 
+cv::Mat excess_without_cast(const std::array<cv::Mat, 3>& bgr, std::size_t plane) {
+  cv::Mat difference;
+  cv::subtract(bgr.at(plane), larger_other(bgr, plane), difference);
+  return difference;
+}
+
 std::array<cv::Mat, 3> planes(const cv::Mat& picture) {
   std::array<cv::Mat, 3> bgr;
   cv::split(picture, bgr.data());
@@ -99,7 +105,7 @@ Image8 grey_values(const cv::Mat& picture, Channel channel, const std::string& f
     const auto bgr = planes(picture);
     const std::size_t plane = plane_of(channel);
     Image8 image = image8_of(is_clipped(channel)    ? clipped_light(bgr, plane)
-                             : is_textured(channel) ? excess(bgr, plane)
+                             : is_textured(channel) ? excess_without_cast(bgr, plane)
                                                     : bgr.at(plane));
     LaserColour colour = where_laser_colour(bgr, plane);
     image.where = std::move(colour.where);

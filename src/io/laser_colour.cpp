@@ -213,11 +213,45 @@ void fill_white(const cv::Mat& white, cv::Mat& level) {
   closed.copyTo(level, white);
 }
 
+double median_level(const cv::Mat& plane) {
+  std::vector<std::uint8_t> levels;
+  const int step = statistic_step(plane);
+  for (int y = step / 2; y < plane.rows; y += step)
+    for (int x = step / 2; x < plane.cols; x += step) levels.push_back(plane.at<std::uint8_t>(y, x));
+  return levels.empty() ? 0 : upper_median(levels);
+}
+
+/// `other` as it would be if the light around had no more of it than of `plane`. What is nearly white stays:
+/// there both are clipped.
+cv::Mat without_cast(const cv::Mat& plane, const cv::Mat& other) {
+  constexpr double kLeastLight = 30;  // grey levels; darker surroundings have no colour of their own
+  constexpr double kLeastGain = 0.4;  // beyond it the plane holds little but noise
+  constexpr double kWhitish = 180, kEnd = 240;  // grey levels: where the correction fades out
+  const double light = median_level(other);
+  if (light < kLeastLight) return other;
+  const double gain = std::max(kLeastGain, median_level(plane) / light);
+  if (gain >= 1) return other;
+  cv::Mat table(1, 256, CV_8U), out;
+  for (int k = 0; k < 256; ++k) {
+    const double white = std::clamp((k - kWhitish) / (kEnd - kWhitish), 0.0, 1.0);
+    table.at<std::uint8_t>(k) = static_cast<std::uint8_t>(std::lround(k * (white + (1 - white) * gain)));
+  }
+  cv::LUT(other, table, out);
+  return out;
+}
+
 }  // namespace
 
+cv::Mat larger_other(const ColourPlanes& bgr, std::size_t plane) {
+  cv::Mat larger;
+  cv::max(without_cast(bgr.at(plane), bgr.at((plane + 1) % 3)),
+          without_cast(bgr.at(plane), bgr.at((plane + 2) % 3)), larger);
+  return larger;
+}
+
 ColourRise colour_rise(const ColourPlanes& bgr, std::size_t plane) {
-  cv::Mat larger, difference, around;
-  cv::max(bgr.at((plane + 1) % 3), bgr.at((plane + 2) % 3), larger);
+  const cv::Mat larger = larger_other(bgr, plane);
+  cv::Mat difference, around;
   cv::subtract(bgr.at(plane), larger, difference, cv::noArray(), CV_16S);
   // Beside a white core in red bloom the blue would rise as well, from far below to nought.
   cv::max(difference, cv::Scalar::all(-kDarkestCast), difference);

@@ -12,6 +12,10 @@ namespace lightstripe {
 
 using ColourPlanes = std::array<cv::Mat, 3>;  ///< 8 bits each: B, G, R
 
+/// The larger of the other two planes as it would be if the light around had no more of it than of `plane`:
+/// a wrong white balance hides a laser, as blue light around hides a red one.
+cv::Mat larger_other(const ColourPlanes& bgr, std::size_t plane);
+
 /// How far one plane rises over the larger of the other two, against the mean of the surroundings, so that
 /// neither a wrong white balance nor a large coloured thing counts.
 struct ColourRise {

@@ -15,9 +15,10 @@
 namespace lightstripe {
 namespace {
 
-/// 320 x 240, grey room light of 60 levels, with a vertical stripe at x = 160: `laser` times a Gaussian of 3
+/// 320 x 240, room light of these levels, with a vertical stripe at x = 160: `laser` times a Gaussian of 3
 /// px is added to the planes B, G, R, each clipped at 255.
-ColourPlanes room_with_line(const std::array<double, 3>& laser) {
+ColourPlanes room_with_line(const std::array<double, 3>& laser,
+                            const std::array<double, 3>& room = {60, 60, 60}) {
   ColourPlanes planes;
   for (std::size_t k = 0; k < 3; ++k) {
     planes.at(k) = cv::Mat(240, 320, CV_8UC1);
@@ -25,7 +26,7 @@ ColourPlanes room_with_line(const std::array<double, 3>& laser) {
       for (int x = 0; x < 320; ++x) {
         const double line = std::exp(-0.5 * (x - 160) * (x - 160) / 9.0);
         planes.at(k).at<std::uint8_t>(y, x) =
-            static_cast<std::uint8_t>(std::clamp(60 + laser.at(k) * line, 0.0, 255.0));
+            static_cast<std::uint8_t>(std::clamp(room.at(k) + laser.at(k) * line, 0.0, 255.0));
       }
   }
   return planes;
@@ -41,6 +42,20 @@ TEST(LaserVote, IsForWhatIsLikeALineNotForWhatIsColourful) {
   add_square(planes, 2, 20, 20, 60);
   add_square(planes, 2, 220, 120, 80);
   EXPECT_EQ(vote_for_laser(planes).plane, 1);
+}
+
+TEST(LaserVote, LightAroundOfTheOppositeColourDoesNotHideTheLaser) {
+  // Red light that adds up to 60 levels is nowhere more red than blue.
+  ColourPlanes planes = room_with_line({0, 0, 60}, {140, 110, 70});
+  for (cv::Mat& plane : planes) plane(cv::Rect(240, 40, 40, 120)) = 255;  // a lamp
+  EXPECT_EQ(vote_for_laser(planes).plane, 2);
+  const LaserColour colour = where_laser_colour(planes, 2);
+  for (const int y : {20, 120, 220}) {
+    EXPECT_EQ(colour.where[static_cast<std::size_t>(y * 320 + 160)], LaserPlace::kSure) << y;
+    EXPECT_EQ(colour.where[static_cast<std::size_t>(y * 320 + 120)], LaserPlace::kNone) << y;
+  }
+  for (int x = 230; x < 290; ++x) EXPECT_EQ(colour.where[static_cast<std::size_t>(100 * 320 + x)], 0) << x;
+  EXPECT_EQ(vote_for_laser(room_with_line({0, 0, 0}, {140, 110, 70})).plane, -1);
 }
 
 TEST(LaserVote, AWhiteCoreHasTheColourOfItsRim) {
