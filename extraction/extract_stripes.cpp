@@ -11,23 +11,15 @@
 #include "extraction/compare/hu_recursive.h"
 #include "extraction/compare/steger.h"
 #include "extraction/compare/zhou_roi.h"
+#include "extraction/finish_lines.h"
 #include "extraction/hand_over.h"
 #include "extraction/image/binned_image.h"
 #include "extraction/image/image_facts.h"
 #include "extraction/image/negative.h"
 #include "extraction/image/stripe_width.h"
 #include "extraction/kernels/width_rule.h"
-#include "extraction/lines/curvature_bias.h"
-#include "extraction/lines/end_cuts.h"
-#include "extraction/lines/line_ends.h"
-#include "extraction/lines/line_fade.h"
-#include "extraction/lines/line_junctions.h"
-#include "extraction/lines/line_measure.h"
-#include "extraction/lines/line_noise.h"
 #include "extraction/lines/line_set.h"
-#include "extraction/lines/line_spots.h"
 #include "extraction/lines/ranked_value.h"
-#include "extraction/lines/smoothing.h"
 #include "extraction/parsed_options.h"
 #include "extraction/track/track_stripes.h"
 #include "extraction/workspace.h"
@@ -226,67 +218,6 @@ ImageView<T> region_of(ImageView<T> image, const ParsedOptions& parsed) {
   return width > 0 && height > 0 ? image.crop(r.x, r.y, width, height) : ImageView<T>{};
 }
 
-bool has_ridges(ExtractionMethod method) {
-  return method != ExtractionMethod::kCentroid && method != ExtractionMethod::kExtremum;
-}
-
-/// On a board the print scatters rows like grain, and edges of the print are no laser's profile.
-template <class T>
-bool weighs_grain(const Run<T>& run) {
-  return run.w.errors.common.grain_px > 0 && has_ridges(run.options.method) && !run.options.on_pattern;
-}
-
-template <class T>
-void finish_lines(const Run<T>& run, ScaleGroup& group) {
-  ExtractionWorkspace& w = run.w;
-  const DerivativeKernels& kernels = *group.kernels;
-  predict_errors(run.image, kernels, run.facts.noise.full, group.lines, w.errors);
-  if (has_ridges(run.options.method)) {
-    find_fade_errors(kernels, group.lines, w.values);
-    const EndsOnPrint on_print = run.options.on_pattern ? EndsOnPrint::kYes : EndsOnPrint::kNo;
-    mend_line_ends(kernels, on_print, group.lines, w.ends);
-    mend_junctions(run.image, kernels, group.lines);
-  }
-  if (run.options.curvature_correction && has_ridges(run.options.method))
-    correct_curvature_bias(kernels, group.lines, w.bends);
-  if (weighs_grain(run)) recentre_ends(run.image, kernels, w.errors.common.grain_px, group.lines, w.end_cuts);
-  find_spot_errors(group.lines, w.values);
-  const bool has_grain = w.errors.common.grain_px > 0;
-  if (run.options.smoothing == Smoothing::kAlways ||
-      (run.options.smoothing == Smoothing::kInGrain && has_grain))
-    smooth_along_lines(group.lines, w.smoothing);
-  add_systematic_errors(group.lines);
-  // Last: neither bends nor smoothing may take a bias for scatter.
-  add_asymmetry(run.image, kernels, group.lines, w.asymmetry);
-}
-
-/// Where the light has grain, by the weights that are best there.
-template <class T>
-void recentre(const Run<T>& run) {
-  ErrorWorkspace& errors = run.w.errors;
-  errors.by_kernels = errors.differences;
-  errors.common_by_kernels = errors.common;
-  for (ScaleGroup& group : run.w.groups.used())
-    recentre_lines(run.image, *group.kernels, group.lines, errors);
-  errors.common = common_scatter(errors.differences, errors.common_by_kernels.grain_px);
-  errors.next = 0;
-}
-
-/// What all lines of the picture tell of its scatter.
-template <class T>
-void look_at_scatter(const Run<T>& run) {
-  ErrorWorkspace& errors = run.w.errors;
-  errors.differences.clear();
-  errors.next = 0;
-  for (ScaleGroup& group : run.w.groups.used()) {
-    smooth_measures(*group.kernels, group.lines, run.w.values);
-    look_at_scatter(run.image, *group.kernels, group.lines, errors);
-  }
-  errors.common = common_scatter(errors.differences);
-  errors.by_kernels.clear();
-  if (weighs_grain(run)) recentre(run);
-}
-
 /// Nobody said how wide the stripes are, and the method can tell line by line.
 bool scales_are_free(const ExtractionOptions& options, const ParsedOptions& parsed) {
   return !options.sigma && !options.stripe_width && !parsed.start &&
@@ -314,8 +245,7 @@ void search(const Run<T>& run) {
     find_lines(run);
     if (!run.options.sigma && !run.options.stripe_width) refine_sigma(run);
   }
-  look_at_scatter(run);
-  for (ScaleGroup& group : run.w.groups.used()) finish_lines(run, group);
+  finish_lines(run.image, run.options, run.facts.noise.full, run.w);
 }
 
 template <class T>

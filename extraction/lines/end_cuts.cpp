@@ -11,6 +11,7 @@
 
 #include "core/robust.h"
 #include "extraction/kernels/width_rule.h"
+#include "extraction/lines/end_view.h"
 #include "extraction/lines/local_fit.h"
 #include "extraction/lines/ranked_value.h"
 
@@ -33,13 +34,6 @@ constexpr double kCutReach = 3.2;                        // standard deviations 
 constexpr double kLeastCutStripe = 0.8;                  // px: pixels blur a narrower one
 constexpr std::size_t kFewestCuts = 16, kMostCuts = 32;  // that tell a line's scatter
 constexpr float kNoLight = std::numeric_limits<float>::quiet_NaN();
-
-/// One line seen from one of its ends.
-struct CutEnd {
-  std::span<StripePoint> points;
-  bool from_back;
-  StripePoint& operator[](std::size_t i) const { return points[from_back ? points.size() - 1 - i : i]; }
-};
 
 void make_taps(std::vector<EndCutWorkspace::Tap>& taps) {
   constexpr int kHalf = static_cast<int>(kCutReach * kTapsPerStripe);
@@ -87,9 +81,9 @@ CutSums sums_of_cut(ImageView<T> image, const CutLine& cut, double stripe,
 }
 
 /// Across the chord over four points to both sides: near ends the kernels' normals turn with their points.
-CutLine cut_line_at(const CutEnd& end, std::size_t i) {
+CutLine cut_line_at(const EndView& end, std::size_t i) {
   const StripePoint &p = end[i], &a = end[i - std::min<std::size_t>(i, 4)],
-                    &b = end[std::min(i + 4, end.points.size() - 1)];
+                    &b = end[std::min(i + 4, end.size() - 1)];
   const double x = b.y - a.y, y = a.x - b.x, length = std::sqrt(x * x + y * y);
   if (length < 1e-9) return {p.x, p.y, p.normal_x, p.normal_y};
   const double side = x * p.normal_x + y * p.normal_y < 0 ? -1 : 1;
@@ -98,7 +92,7 @@ CutLine cut_line_at(const CutEnd& end, std::size_t i) {
 
 /// The light across the line from one of its points.
 template <class T>
-EndCutWorkspace::Cut cut_at(ImageView<T> image, const CutEnd& end, std::size_t i, double stripe, int passes,
+EndCutWorkspace::Cut cut_at(ImageView<T> image, const EndView& end, std::size_t i, double stripe, int passes,
                             const EndCutWorkspace& w) {
   constexpr double kLongestStep = 0.5;  // standard deviations of the stripe
   const StripePoint& p = end[i];
@@ -179,7 +173,7 @@ CutMean mean_of_cuts(const EndCutWorkspace& w, std::size_t i) {
 double shift_of_cut_off(double lost) { return 4 * lost * std::max(0.0, lost); }
 
 /// `reach`: points that may move; `shared`: cuts that share their error.
-void move_end(const CutEnd& end, const CutScatter& scatter, double sigma, double stripe, std::size_t reach,
+void move_end(const EndView& end, const CutScatter& scatter, double sigma, double stripe, std::size_t reach,
               double shared, const EndCutWorkspace& w) {
   for (std::size_t i = 0; i < reach; ++i) {
     const CutMean mean = mean_of_cuts(w, i);
@@ -230,10 +224,10 @@ void recentre_line_ends(ImageView<T> image, double sigma, double grain_px, std::
   if (scatter.variance < std::pow(kLeastScatter * stripe, 2) || !(scatter.profile > 0)) return;
   const double shared = std::max(1.0, std::sqrt(2 * std::numbers::pi) * grain_px / step);
   for (const bool from_back : {false, true}) {
-    const CutEnd end{line, from_back};
+    const EndView end{line, from_back};
     if (leaves_picture(image, end[0], sigma)) continue;
     const std::size_t count = std::min(reach + w.along.size(), line.size());
-    if (joined_end(from_back ? line.last(count) : line.first(count), 0) < count) continue;
+    if (joined_end(end.stretch(count), 0) < count) continue;
     w.cuts.clear();
     for (std::size_t i = 0; i < count; ++i) w.cuts.push_back(cut_at(image, end, i, stripe, 3, w));
     move_end(end, scatter, sigma, stripe, reach, shared, w);

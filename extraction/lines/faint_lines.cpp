@@ -136,13 +136,13 @@ bool Judge::is_bright_enough(const DerivativeKernels& kernels, const LineFacts& 
   return line.odd_share < most_odd && usual_width;
 }
 
-/// One end of a line, and where it would go on.
-struct LineEnd {
+/// Where a line would go on beyond one of its ends.
+struct Continuation {
   double x = 0, y = 0;              ///< px
   double along_x = 0, along_y = 0;  ///< unit, out of the line
 };
 
-LineEnd end_of(const LineSet& lines, const LineRange& r, bool last, double width) {
+Continuation continuation_of(const LineSet& lines, const LineRange& r, bool last, double width) {
   const std::size_t inside =
       std::min(r.size() - 1, static_cast<std::size_t>(std::lround(std::max(3.0, width))));
   const StripePoint &p = lines.points[last ? r.end - 1 : r.begin],
@@ -153,7 +153,7 @@ LineEnd end_of(const LineSet& lines, const LineRange& r, bool last, double width
 
 /// Whether a line that begins at `b` may be the one that ends at `a`: straight on over a short gap, or, for
 /// light of the laser's colour, around a corner close by. `width`: of the stripe, px.
-bool goes_on(const LineEnd& a, const LineEnd& b, double width, bool coloured) {
+bool goes_on(const Continuation& a, const Continuation& b, double width, bool coloured) {
   constexpr double kFarthest = 4, kCorner = 2, kAside = 0.75, kSpread = 0.2, kLeastCosine = 0.8;
   const double dx = b.x - a.x, dy = b.y - a.y, distance = std::hypot(dx, dy);
   if (coloured && distance < kCorner * width) return true;
@@ -191,8 +191,9 @@ bool continues_kept_line(std::span<const FilteredLines> groups, const FilteredLi
       const double width = std::max({kept.width, facts.width, 3.0});
       for (const bool last : {false, true})
         for (const bool other_last : {false, true})
-          if (goes_on(end_of(*other.lines, other.lines->lines[i], other_last, width),
-                      end_of(*group.lines, group.lines->lines[k], last, width), width, facts.colour.known))
+          if (goes_on(continuation_of(*other.lines, other.lines->lines[i], other_last, width),
+                      continuation_of(*group.lines, group.lines->lines[k], last, width), width,
+                      facts.colour.known))
             return true;
     }
   return false;

@@ -9,6 +9,7 @@
 #include <span>
 
 #include "extraction/kernels/width_rule.h"
+#include "extraction/lines/end_view.h"
 #include "extraction/lines/light_end.h"
 #include "extraction/lines/local_fit.h"
 
@@ -34,22 +35,13 @@ constexpr double kFarthestAside = 1.25;
 /// used.
 constexpr double kMostEndMisfit = 1.5;
 
-/// One line seen from one of its ends.
-struct EndView {
-  std::span<StripePoint> points;
-  std::span<float> fading;  ///< LineSet::fading, of these points; empty: not known
-  bool from_back;
-
-  std::size_t size() const { return points.size(); }
-  /// What fades before `first` fades as it does there: the end itself is counted otherwise.
-  void continue_fading(std::size_t first) const {
-    if (fading.empty()) return;
-    const auto at = [&](std::size_t i) { return from_back ? fading.size() - 1 - i : i; };
-    const float there = first < size() ? fading[at(first)] : 0.0F;
-    for (std::size_t i = 0; i < std::min(first, size()); ++i) fading[at(i)] = there;
-  }
-  StripePoint& operator[](std::size_t i) const { return points[from_back ? points.size() - 1 - i : i]; }
-};
+/// What fades before `first` fades as it does there: the end itself is counted otherwise. `fading`:
+/// LineSet::fading of the line's points; empty: not known.
+void continue_fading(const EndView& end, std::size_t first, std::span<float> fading) {
+  if (fading.empty()) return;
+  const float there = first < end.size() ? fading[end.index(first)] : 0.0F;
+  for (std::size_t i = 0; i < std::min(first, end.size()); ++i) fading[end.index(i)] = there;
+}
 
 /// Strengths from the end on, one in a quarter of `spread`.
 std::array<double, kEndSamples> strengths_of(const EndView& end, double spread, double step) {
@@ -176,11 +168,6 @@ bool move_points(const EndView& end, const Hypothesis& h, const EndFit& wide,
   return true;
 }
 
-bool is_joined(const EndView& end, std::size_t count) {
-  const std::span<StripePoint> stretch = end.from_back ? end.points.last(count) : end.points.first(count);
-  return joined_end(stretch, 0) == count;
-}
-
 /// Too little of the line is known to tell how it goes on.
 void widen_errors(const EndView& end, const Hypothesis& h, double sigma_px, double step) {
   const EndCurves curves(h.light);
@@ -191,8 +178,8 @@ void widen_errors(const EndView& end, const Hypothesis& h, double sigma_px, doub
   }
 }
 
-void mend_end(const EndView& end, double sigma, double shared_px, EndsOnPrint on_print,
-              std::vector<EndPoint>& points) {
+void mend_end(const EndView& end, std::span<float> fading, double sigma, double shared_px,
+              EndsOnPrint on_print, std::vector<EndPoint>& points) {
   const auto scale = static_cast<std::size_t>(std::ceil(sigma));
   if (end.size() < 3 * scale) return;  // three or more points, since scale is 1 at least
   const StripePoint& inner = end[std::min(4 * scale, end.size() - 1)];
@@ -201,10 +188,10 @@ void mend_end(const EndView& end, double sigma, double shared_px, EndsOnPrint on
   const Hypothesis& likeliest = *std::ranges::min_element(all, {}, &Hypothesis::strength_misfit);
   if (likeliest.light.inside >= kNoEnd) return;
   const std::size_t reach = std::ranges::max(all, {}, &Hypothesis::disturbed).disturbed;
-  end.continue_fading(reach + scale);  // where fading was looked at over undisturbed points
+  continue_fading(end, reach + scale, fading);  // where fading was looked at over undisturbed points
   const auto narrow_count = reach + static_cast<std::size_t>(kNarrowPart * sigma / step),
              count = reach + static_cast<std::size_t>(kWidePart * sigma / step);
-  if (on_print == EndsOnPrint::kYes || end.size() <= count || !is_joined(end, count))
+  if (on_print == EndsOnPrint::kYes || end.size() <= count || joined_end(end.stretch(count), 0) < count)
     return widen_errors(end, likeliest, inner.sigma_px, step);
 
   const StripePoint &origin = end[reach], &ahead = end[std::min(reach + 2 * scale, count)];
@@ -238,8 +225,8 @@ void mend_line_ends(const DerivativeKernels& kernels, EndsOnPrint on_print, Line
     const std::span<float> fading = lines.fading.size() == lines.points.size()
                                         ? std::span(lines.fading).subspan(r.begin, r.size())
                                         : std::span<float>{};
-    mend_end({line, fading, false}, kernels.sigma, r.shared_px, on_print, workspace.points);
-    mend_end({line, fading, true}, kernels.sigma, r.shared_px, on_print, workspace.points);
+    for (const bool from_back : {false, true})
+      mend_end({line, from_back}, fading, kernels.sigma, r.shared_px, on_print, workspace.points);
   }
 }
 
