@@ -65,6 +65,7 @@ class Follower {
  private:
   RidgeSearch predict(const Tip& tip, const Direction& direction, int steps, double aside) const;
   bool is_free(double x, double y) const;
+  bool leaves_image(const Tip& tip, const RidgeSearch& ahead) const;
   std::optional<RidgePlace> find_free(const RidgeSearch& search) const;
   std::optional<RidgePlace> beside(const Tip& tip, const RidgeSearch& ahead) const;
   std::optional<RidgePlace> around_corner(const Tip& tip, const RidgeSearch& ahead) const;
@@ -115,6 +116,20 @@ bool Follower<T>::is_free(double x, double y) const {
   const std::uint16_t label = mask_(finder_.in_mask(column), finder_.in_mask(row));
   return label == ExclusionMask::kFree || label == ExclusionMask::kDead || label == labels_.current ||
          label == previous_;
+}
+
+/// Ahead lies the outside, which the line does not merely run along: what is found beside the last point, or
+/// around a corner, is its own light once more.
+template <class T>
+bool Follower<T>::leaves_image(const Tip& tip, const RidgeSearch& ahead) const {
+  const auto x = nearest_pixel(ahead.x), y = nearest_pixel(ahead.y);
+  const double sideways = x < 0                      ? -tip.direction.x
+                          : x >= finder_.image.width ? tip.direction.x
+                                                     : 0.0;
+  const double upright = y < 0                       ? -tip.direction.y
+                         : y >= finder_.image.height ? tip.direction.y
+                                                     : 0.0;
+  return std::max(sideways, upright) > kTuning.leaving_sine;
 }
 
 /// The ridge that is found, where neither it nor the place searched is another line's.
@@ -288,6 +303,7 @@ template <class T>
 bool Follower<T>::go_on(std::size_t before, Tip& tip, std::vector<StripePoint>& out) {
   if (stride(tip, out)) return true;
   const RidgeSearch ahead = predict(tip, tip.direction, 1, 0);
+  if (leaves_image(tip, ahead)) return false;
   const auto found = is_free(ahead.x, ahead.y) ? finder_.find(ahead) : std::nullopt;
   const bool disturbed = found && found->clarity == RidgeClarity::kDisturbed;
   if (found && !disturbed) {

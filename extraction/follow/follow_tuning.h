@@ -91,6 +91,8 @@ struct StepTuning {
   /// Radians, to both sides: where a line may leave around a corner, up to about a right angle with the next
   /// step's own turn.
   double corner_angle = 0.6, sharp_corner_angle = 1.2;
+  /// Of the angle to the image's border: a line that comes to it more steeply ends there.
+  double leaving_sine = 0.2;
   /// Of the line's recent strength: around a corner the line stays about as strong, beyond a gap it may be
   /// dimmer.
   double corner_strength = 0.2, landing_strength = 0.02;
