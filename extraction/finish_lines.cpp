@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include "extraction/lines/border_ends.h"
 #include "extraction/lines/curvature_bias.h"
 #include "extraction/lines/end_cuts.h"
 #include "extraction/lines/line_asymmetry.h"
@@ -74,7 +75,9 @@ void finish_group(ImageView<T> image, const ExtractionOptions& options, double n
   predict_errors(image, kernels, noise, lines, w.errors);
   if (has_ridges(options.method)) mend_ridges(image, options, kernels, lines, w);
   if (weighs_grain(options, w)) recentre_ends(image, kernels, w.errors.common.grain_px, lines, w.end_cuts);
+  find_border_errors(image, kernels, lines);
   find_spot_errors(lines, w.values);
+  find_binning_errors(1 << group.level, lines);
   if (options.smoothing == Smoothing::kAlways || (options.smoothing == Smoothing::kInGrain && has_grain(w)))
     smooth_along_lines(lines, w.smoothing);
   add_systematic_errors(lines);

@@ -11,6 +11,7 @@
 
 #include "core/robust.h"
 #include "extraction/kernels/width_rule.h"
+#include "extraction/lines/border_ends.h"
 #include "extraction/lines/end_view.h"
 #include "extraction/lines/local_fit.h"
 #include "extraction/lines/ranked_value.h"
@@ -200,14 +201,6 @@ double mean_step(std::span<const StripePoint> line) {
   return std::clamp(std::sqrt(dx * dx + dy * dy) / 8, 0.5, 2.0);
 }
 
-/// There the light goes on, and the kernels see the last row of pixels in place of it.
-template <class T>
-bool leaves_picture(ImageView<T> image, const StripePoint& last, double sigma) {
-  const double reach = 3 * sigma;
-  return last.x < reach || last.y < reach || last.x > image.width - 1 - reach ||
-         last.y > image.height - 1 - reach;
-}
-
 template <class T>
 void recentre_line_ends(ImageView<T> image, double sigma, double grain_px, std::span<StripePoint> line,
                         EndCutWorkspace& w) {
@@ -225,7 +218,7 @@ void recentre_line_ends(ImageView<T> image, double sigma, double grain_px, std::
   const double shared = std::max(1.0, std::sqrt(2 * std::numbers::pi) * grain_px / step);
   for (const bool from_back : {false, true}) {
     const EndView end{line, from_back};
-    if (leaves_picture(image, end[0], sigma)) continue;
+    if (is_near_border(image, end[0], 3 * sigma)) continue;  // there the light goes on
     const std::size_t count = std::min(reach + w.along.size(), line.size());
     if (joined_end(end.stretch(count), 0) < count) continue;
     w.cuts.clear();

@@ -31,6 +31,17 @@ double own_width(std::span<const StripePoint> points, std::size_t stride, std::v
 
 }  // namespace
 
+void find_binning_errors(int bin, LineSet& lines) {
+  // Of a coarse pixel: Gaussian stripes of 3.5 to 12 px, clipped 1.5 to 60 times, in pixels of 2 to 16, have
+  // errors of 0.001 to 0.018 rms, whatever their noise.
+  constexpr float kOfBin = 0.006F;
+  if (bin == 1) return;
+  lines.systematic.resize(lines.points.size(), 0.0F);
+  for (std::size_t i = 0; i < lines.points.size(); ++i)
+    if (is_white(lines.points[i]))
+      lines.systematic[i] = std::hypot(lines.systematic[i], kOfBin * static_cast<float>(bin));
+}
+
 void find_spot_errors(LineSet& lines, std::vector<float>& values) {
   lines.systematic.resize(lines.points.size(), 0.0F);
   for (const LineRange& r : lines.lines) {

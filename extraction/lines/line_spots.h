@@ -15,4 +15,8 @@ namespace lightstripe {
 /// sigma is that over sqrt(12). `values` is scratch memory.
 void find_spot_errors(LineSet& lines, std::vector<float>& values);
 
+/// Adds to `lines.systematic` what pixels of `bin` x `bin` of the image's hide of clipped points: the flanks
+/// of a clipped bar are so steep that means over a few pixels no longer tell where they are.
+void find_binning_errors(int bin, LineSet& lines);
+
 }  // namespace lightstripe

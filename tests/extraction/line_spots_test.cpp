@@ -87,5 +87,28 @@ TEST(LineSpots, SigmaHoldsWhereABridgeCutsABeadOff) {
   }
 }
 
+TEST(LineSpots, CoarsePixelsHideTheFlanksOfClippedBars) {
+  LineSet lines = scenes::level_line(10, 32);
+  lines.points[4].flags = kStripeSaturated;
+  find_binning_errors(1, lines);
+  EXPECT_TRUE(lines.systematic.empty());  // the image's own pixels
+  find_binning_errors(8, lines);
+  EXPECT_NEAR(lines.systematic[4], 0.048, 1e-6);
+  EXPECT_EQ(lines.systematic[5], 0);
+}
+
+/// A clipped bar of 32 px that runs along the pixels, so that all rows share one error: up to 0.055 px at a
+/// sigma of 0.002 where only their scatter told it.
+TEST(LineSpots, SigmaHoldsForAnUprightClippedBar) {
+  for (const double x : {190.0, 190.25, 300.0, 300.5}) {
+    scenes::Canvas canvas(640, 400, 10);
+    canvas.add(scenes::make_line(x, -60, x, 460, 15 * 255, 6));
+    const auto found = extract_stripes(canvas.exposed(1, 0, 3).view());
+    ASSERT_EQ(found.stripes.size(), 1U) << x;
+    const StripePoint& middle = found.stripes[0].points[found.stripes[0].points.size() / 2];
+    EXPECT_LT(std::abs(middle.x - x), 3 * middle.sigma_px) << x;
+  }
+}
+
 }  // namespace
 }  // namespace lightstripe
