@@ -77,7 +77,7 @@ void finish_group(ImageView<T> image, const ExtractionOptions& options, double n
   if (weighs_grain(options, w)) recentre_ends(image, kernels, w.errors.common.grain_px, lines, w.end_cuts);
   find_border_errors(image, kernels, lines);
   find_spot_errors(lines, w.values);
-  find_binning_errors(1 << group.level, lines);
+  find_binning_errors(kernels.sigma, 1 << group.level, lines);
   if (options.smoothing == Smoothing::kAlways || (options.smoothing == Smoothing::kInGrain && has_grain(w)))
     smooth_along_lines(lines, w.smoothing);
   add_systematic_errors(lines);

@@ -123,12 +123,8 @@ bool Follower<T>::is_free(double x, double y) const {
 template <class T>
 bool Follower<T>::leaves_image(const Tip& tip, const RidgeSearch& ahead) const {
   const auto x = nearest_pixel(ahead.x), y = nearest_pixel(ahead.y);
-  const double sideways = x < 0                      ? -tip.direction.x
-                          : x >= finder_.image.width ? tip.direction.x
-                                                     : 0.0;
-  const double upright = y < 0                       ? -tip.direction.y
-                         : y >= finder_.image.height ? tip.direction.y
-                                                     : 0.0;
+  const double sideways = x < 0 ? -tip.direction.x : x >= finder_.image.width ? tip.direction.x : 0.0;
+  const double upright = y < 0 ? -tip.direction.y : y >= finder_.image.height ? tip.direction.y : 0.0;
   return std::max(sideways, upright) > kTuning.leaving_sine;
 }
 

@@ -18,8 +18,9 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-/// Sigma: from there on the kernels hardly see the border; and the stretch that tells how the line runs.
-constexpr double kSeen = 1.5, kTelling = 4;
+/// Sigma: from there on the kernels hardly see the border; the stretch that tells how the line runs; and a
+/// longer one, which tells whether a parabola is enough.
+constexpr double kSeen = 1.5, kTelling = 4, kLonger = 6;
 constexpr std::size_t kFewestTelling = 8;
 
 /// The line near one end in its own frame: `along` it and across, from the first undisturbed point on.
@@ -72,9 +73,14 @@ void find_at_end(ImageView<T> image, const EndView& end, double sigma, double sh
   const EndFrame frame{origin, dx / length, dy / length};
   const double shared = std::max(1.0, shared_px * static_cast<double>(telling) / length);
   const EndParabola parabola = parabola_through(end, frame, seen, count, shared);
+  const std::size_t longer = seen + static_cast<std::size_t>(kLonger * sigma);
+  const bool goes_on = longer <= end.size() && joined_end(end.stretch(longer), 0) >= longer;
+  const EndParabola by_longer = goes_on ? parabola_through(end, frame, seen, longer, shared) : parabola;
   for (std::size_t i = 0; i < seen; ++i) {
     const double along = frame.along(end[i]), off = frame.across(end[i]) - parabola.at(along);
-    const double explained = parabola.variance(along) + end[i].sigma_px * end[i].sigma_px;
+    // Where the bend changes, the parabola misses the line about half as far as the two differ.
+    const double change = 0.5 * (parabola.at(along) - by_longer.at(along));
+    const double explained = parabola.variance(along) + change * change + end[i].sigma_px * end[i].sigma_px;
     float& error = errors[end.index(i)];
     error = std::hypot(error, static_cast<float>(std::sqrt(std::max(0.0, off * off - explained))));
   }

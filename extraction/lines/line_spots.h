@@ -15,8 +15,9 @@ namespace lightstripe {
 /// sigma is that over sqrt(12). `values` is scratch memory.
 void find_spot_errors(LineSet& lines, std::vector<float>& values);
 
-/// Adds to `lines.systematic` what pixels of `bin` x `bin` of the image's hide of clipped points: the flanks
-/// of a clipped bar are so steep that means over a few pixels no longer tell where they are.
-void find_binning_errors(int bin, LineSet& lines);
+/// Adds to `lines.systematic` what pixels of `bin` x `bin` of the image's hide of clipped points, followed
+/// there by kernels of `sigma` px: the flanks of a clipped bar are so steep that means over a few pixels no
+/// longer tell where they are. Most along the pixels, where all rows share one error.
+void find_binning_errors(double sigma, int bin, LineSet& lines);
 
 }  // namespace lightstripe

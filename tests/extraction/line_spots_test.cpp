@@ -90,11 +90,16 @@ TEST(LineSpots, SigmaHoldsWhereABridgeCutsABeadOff) {
 TEST(LineSpots, CoarsePixelsHideTheFlanksOfClippedBars) {
   LineSet lines = scenes::level_line(10, 32);
   lines.points[4].flags = kStripeSaturated;
-  find_binning_errors(1, lines);
+  find_binning_errors(16, 1, lines);
   EXPECT_TRUE(lines.systematic.empty());  // the image's own pixels
-  find_binning_errors(8, lines);
+  find_binning_errors(16, 8, lines);
   EXPECT_NEAR(lines.systematic[4], 0.048, 1e-6);
   EXPECT_EQ(lines.systematic[5], 0);
+  // A line that crosses the pixels: over the kernels' length each place within them is met.
+  lines.systematic.clear();
+  lines.points[4].normal_x = 0.6, lines.points[4].normal_y = 0.8;
+  find_binning_errors(16, 8, lines);
+  EXPECT_NEAR(lines.systematic[4], 0.012, 1e-6);
 }
 
 /// A clipped bar of 32 px that runs along the pixels, so that all rows share one error: up to 0.055 px at a
