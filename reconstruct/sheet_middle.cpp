@@ -27,8 +27,8 @@ constexpr double kEndBegins = 0.9, kEndIsOver = 1.8;
 /// Points between two places at which the plane's normal is projected: its direction turns by some degrees
 /// over a picture.
 constexpr std::size_t kProjected = 16;
-/// Of StripePoint::fade_px, which is for light that fades at half of its slope across the line as well (1
-/// sigma): without the sheet's part a quarter is left.
+/// Of StripePoint::fade_px (1 sigma): what the oblique border of a stain may still do once the sheet's part
+/// is undone.
 constexpr double kLeftOfFade = 0.5;
 
 bool is_measured(const StripePoint& p) {

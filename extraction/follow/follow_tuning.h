@@ -91,7 +91,8 @@ struct StepTuning {
   /// Radians, to both sides: where a line may leave around a corner, up to about a right angle with the next
   /// step's own turn.
   double corner_angle = 0.6, sharp_corner_angle = 1.2;
-  /// Of the angle to the image's border: a line that comes to it more steeply ends there.
+  /// Of its angle to the image's border: a line that comes to it more steeply ends there, one that runs along
+  /// it may come back.
   double leaving_sine = 0.2;
   /// Of the line's recent strength: around a corner the line stays about as strong, beyond a gap it may be
   /// dimmer.
