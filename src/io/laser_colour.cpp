@@ -29,19 +29,26 @@ cv::Mat square(int reach) {
   return cv::getStructuringElement(cv::MORPH_RECT, {2 * reach + 1, 2 * reach + 1});
 }
 
-/// Every so many pixels of each row and column are enough for a statistic.
-int statistic_step(const cv::Mat& picture) {
-  return std::max(1, static_cast<int>(std::sqrt(static_cast<double>(picture.total()) / 40000)));
+/// Some 40000 pixels, evenly spread, which are enough for a statistic.
+template <class T>
+std::vector<T> sampled(const cv::Mat& picture) {
+  std::vector<T> samples;
+  const int step = std::max(1, static_cast<int>(std::sqrt(static_cast<double>(picture.total()) / 40000)));
+  for (int y = step / 2; y < picture.rows; y += step)
+    for (int x = step / 2; x < picture.cols; x += step) samples.push_back(picture.at<T>(y, x));
+  return samples;
 }
 
 double usual_level(const cv::Mat& level) {
-  std::vector<std::int16_t> sizes;
-  const int step = statistic_step(level);
-  for (int y = step / 2; y < level.rows; y += step)
-    for (int x = step / 2; x < level.cols; x += step)
-      sizes.push_back(static_cast<std::int16_t>(std::abs(level.at<std::int16_t>(y, x))));
+  auto sizes = sampled<std::int16_t>(level);
   if (sizes.empty()) return 0;
+  for (std::int16_t& size : sizes) size = static_cast<std::int16_t>(std::abs(size));
   return kMadToSigma * upper_median(sizes);
+}
+
+double median_level(const cv::Mat& plane) {
+  auto levels = sampled<std::uint8_t>(plane);
+  return levels.empty() ? 0 : upper_median(levels);
 }
 
 double top_level(const cv::Mat& level) {
@@ -213,23 +220,15 @@ void fill_white(const cv::Mat& white, cv::Mat& level) {
   closed.copyTo(level, white);
 }
 
-double median_level(const cv::Mat& plane) {
-  std::vector<std::uint8_t> levels;
-  const int step = statistic_step(plane);
-  for (int y = step / 2; y < plane.rows; y += step)
-    for (int x = step / 2; x < plane.cols; x += step) levels.push_back(plane.at<std::uint8_t>(y, x));
-  return levels.empty() ? 0 : upper_median(levels);
-}
-
-/// `other` as it would be if the light around had no more of it than of `plane`. What is nearly white stays:
-/// there both are clipped.
-cv::Mat without_cast(const cv::Mat& plane, const cv::Mat& other) {
+/// `other` as it would be if the light around had no more of it than of a plane of that `usual` level. What
+/// is nearly white stays: there both are clipped.
+cv::Mat without_cast(const cv::Mat& other, double usual) {
   constexpr double kLeastLight = 30;  // grey levels; darker surroundings have no colour of their own
   constexpr double kLeastGain = 0.4;  // beyond it the plane holds little but noise
   constexpr double kWhitish = 180, kEnd = 240;  // grey levels: where the correction fades out
   const double light = median_level(other);
   if (light < kLeastLight) return other;
-  const double gain = std::max(kLeastGain, median_level(plane) / light);
+  const double gain = std::max(kLeastGain, usual / light);
   if (gain >= 1) return other;
   cv::Mat table(1, 256, CV_8U), out;
   for (int k = 0; k < 256; ++k) {
@@ -243,9 +242,9 @@ cv::Mat without_cast(const cv::Mat& plane, const cv::Mat& other) {
 }  // namespace
 
 cv::Mat larger_other(const ColourPlanes& bgr, std::size_t plane) {
+  const double usual = median_level(bgr.at(plane));
   cv::Mat larger;
-  cv::max(without_cast(bgr.at(plane), bgr.at((plane + 1) % 3)),
-          without_cast(bgr.at(plane), bgr.at((plane + 2) % 3)), larger);
+  cv::max(without_cast(bgr.at((plane + 1) % 3), usual), without_cast(bgr.at((plane + 2) % 3), usual), larger);
   return larger;
 }
 
