@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The lightstripe authors
 // SPDX-License-Identifier: Apache-2.0
 // The grey-value methods: in every column or row one centre of each bright run. Fast and simple, for stripes
-// on a dark background.
+// that are the brightest thing around.
 #pragma once
 
 #include <vector>
@@ -14,21 +14,22 @@
 namespace lightstripe {
 
 enum class GreyValueCentre {
-  kCentroid,  ///< mean place, the grey value over T_l weighs
+  kCentroid,  ///< mean place, the grey value over the run's level weighs
   kExtremum,  ///< peak of the run smoothed by a Gaussian of the stripe's scale
 };
 
-/// A run of pixels over T_l.
+/// A run of pixels over T_l, or over a higher level where that one is too long to be a stripe.
 struct BrightRun {
   double centre = 0;  ///< px along the column (row)
   double half = 0;    ///< px
-  double peak = 0;    ///< grey levels over T_l
+  double peak = 0;    ///< grey levels over the run's level
 };
 
 /// Scratch memory.
 struct GreyValueWorkspace {
   struct OpenLine {
     int number = 0;
+    std::size_t point = 0;  ///< its last one
     double centre = 0, half = 0;
     bool extended = true;
   };

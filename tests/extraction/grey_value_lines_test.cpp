@@ -20,12 +20,15 @@ constexpr int kSize = 300;
 /// Distance from a line at a place, px.
 using Distance = std::function<double(double, double)>;
 
-Image8 picture_of(const std::vector<Distance>& lines) {
+/// Light around the lines, grey levels at a place.
+using Floor = std::function<double(double, double)>;
+
+Image8 picture_of(const std::vector<Distance>& lines, const Floor& floor) {
   Random random(4, 9);
   Image8 image(kSize, kSize);
   for (int y = 0; y < kSize; ++y)
     for (int x = 0; x < kSize; ++x) {
-      double grey = 10 + 1.5 * random.gaussian();
+      double grey = floor(x, y) + 1.5 * random.gaussian();
       for (const Distance& distance : lines) {
         const double d = distance(x, y);
         grey += 170 * std::exp(-0.5 * d * d / 4);
@@ -40,10 +43,12 @@ struct Found {
   double points = 0, rms = 0, off = 0;  ///< px; points farther than 1 px off
 };
 
-Found found_in(const std::vector<Distance>& lines) {
+double dark(double /*x*/, double /*y*/) { return 10; }
+
+Found found_in(const std::vector<Distance>& lines, const Floor& floor = dark) {
   ExtractionOptions options;
   options.method = ExtractionMethod::kCentroid;
-  const auto result = extract_stripes(picture_of(lines).view(), options);
+  const auto result = extract_stripes(picture_of(lines, floor).view(), options);
   Found found;
   found.lines = result.stripes.size();
   for (const Stripe& stripe : result.stripes)
@@ -86,6 +91,22 @@ TEST(GreyValueLines, ACircleIsTakenInPartsWithoutGaps) {
   EXPECT_GT(found.points, 560);
   EXPECT_LT(found.points, 620);
   EXPECT_LT(found.rms, 0.1);
+}
+
+TEST(GreyValueLines, ALineInAGlowOrOnALitFloorIsFoundAndTheFloorIsNot) {
+  const Distance line = straight(88, 150, 150.2);
+  const auto glow = [&](double x, double y) {
+    const double d = line(x, y);
+    return 10 + 50 * std::exp(-std::abs(d) / 15);
+  };
+  // Half of the picture lies in the room's light; its edge is no line.
+  const auto lit = [](double /*x*/, double y) { return y > 140 ? 70.0 : 10.0; };
+  for (const Floor& floor : {Floor(glow), Floor(lit)}) {
+    const Found found = found_in({line}, floor);
+    EXPECT_GT(found.points, 0.97 * kSize);
+    EXPECT_LT(found.off, 0.02 * kSize);
+    EXPECT_LT(found.rms, 0.3);
+  }
 }
 
 }  // namespace
