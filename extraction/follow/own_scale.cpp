@@ -72,6 +72,7 @@ class LineFinder {
   bool is_untried(const ScaleSeed& seed);
   void try_seed(const ScaleSeed& seed);
   void try_seeds(bool beside_ends);
+  void try_chains();
   bool has_enough() const { return search_.stop_after > 0 && lines_ >= search_.stop_after; }
 
   const OwnScaleSearch<T>& search_;
@@ -346,6 +347,23 @@ void LineFinder<T>::try_seed(const ScaleSeed& seed) {
   keep_or_reject(own, seed.level);
 }
 
+/// Tries the seeds that lie in a row, the longest row first: where many things are brighter than the line, it
+/// shows by its length.
+template <class T>
+void LineFinder<T>::try_chains() {
+  if (search_.windowed != nullptr) return;
+  const ImageView<T>& image = search_.image;
+  const double least = search_.tuning.least_chain * std::min(image.width, image.height);
+  collect_chained_seeds(w_.seeds, image.width, image.height, static_cast<int>(least), w_.chains, w_.chained);
+  for (const ScaleSeed& seed : w_.chained) {
+    if (!is_untried(seed)) continue;
+    if (labels_.current >= ExclusionMask::kLastLabel || following_.patience.is_over() || has_enough()) return;
+    const std::size_t before = following_.patience.lines();
+    try_seed(seed);
+    if (following_.patience.lines() > before) following_.patience.look_along_chains();
+  }
+}
+
 /// Tries the seeds in their order, as long as there is hope.
 template <class T>
 void LineFinder<T>::try_seeds(bool beside_ends) {
@@ -354,6 +372,8 @@ void LineFinder<T>::try_seeds(bool beside_ends) {
     if (labels_.current >= ExclusionMask::kLastLabel || following_.patience.is_over() || has_enough()) return;
     if (seed.rank * search_.brightest < 255 * search_.tuning.faintest_seed * strongest_) return;
     if (beside_ends && !following_.patience.is_beside_end(seed.x, seed.y)) continue;
+    if (!beside_ends && following_.patience.sees_crumbs_only())
+      following_.patience.try_chains([this] { try_chains(); });
     try_seed(seed);
   }
 }
@@ -369,7 +389,9 @@ void LineFinder<T>::run() {
     groups_.all[group_for(grained_sigma_, 0.01)].limits.grain = grain_;
     try_seeds(false);
   }
+  if (!following_.patience.is_over()) return;
   following_.patience.try_beside_ends([this] { try_seeds(true); });
+  following_.patience.try_chains([this] { try_chains(); });
 }
 
 }  // namespace

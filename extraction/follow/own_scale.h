@@ -12,6 +12,7 @@
 #include "extraction/follow/follow_tuning.h"
 #include "extraction/follow/scale_ladder.h"
 #include "extraction/follow/scale_seeds.h"
+#include "extraction/follow/seed_chains.h"
 #include "extraction/lines/line_set.h"
 
 namespace lightstripe {
@@ -46,7 +47,8 @@ struct ScaleGroups {
 template <class T>
 struct OwnScaleWorkspace {
   ImagePyramid<T> pyramid;
-  std::vector<ScaleSeed> found, seeds;
+  std::vector<ScaleSeed> found, seeds, chained;
+  SeedChainWorkspace chains;
   /// One a level: cells in which no line begins.
   std::array<std::vector<std::uint8_t>, ImagePyramid<T>::kMostLevels> tried;
   /// Cells of 4 x 4 pixels beside lines that were followed; bit k: no seed of level k is tried there.

@@ -22,6 +22,10 @@ void SearchPatience::reset(int width, int height, const FollowTuning& tuning) {
   most_ = tuning.futile_points * size;
   least_ = tuning.futile_points_with_line * size;
   beside_ends_ = tuning.futile_points_beside_ends * size;
+  crowd_ = tuning.futile_points_of_crowd * size;
+  along_chains_ = tuning.futile_points_along_chains * size;
+  most_missing_ = tuning.missing_in_crowd;
+  chains_tried_ = false;
   reach_widths_ = tuning.widths_beside_end;
   ends_.clear();
 }
@@ -40,10 +44,9 @@ void SearchPatience::add_line(std::span<const StripePoint> points, double full_w
   add_end(points.back(), points[points.size() - 1 - inside]);
 }
 
-double SearchPatience::most() const {
-  const double missing = std::max(0.0, 1 - found_ / shorter_);
-  return least_ + missing * (most_ - least_);
-}
+double SearchPatience::missing() const { return std::max(0.0, 1 - found_ / shorter_); }
+
+double SearchPatience::most() const { return least_ + missing() * (most_ - least_); }
 
 bool SearchPatience::is_beside(const End& end, int x, int y) const {
   const double dx = x - end.x, dy = y - end.y, distance2 = dx * dx + dy * dy;

@@ -27,15 +27,29 @@ class SearchPatience {
   bool is_over() const { return futile_ > most(); }
   /// From here on lines begin beside the ends of other ones only, and that is tried for a while.
   void look_beside_ends() { futile_ = most() - beside_ends_; }
-  /// Does so where the search is over, and again as long as that finds lines, which have ends of their own.
+  /// Does so, and again as long as that finds lines, which have ends of their own.
   template <class TrySeeds>
   void try_beside_ends(const TrySeeds& try_seeds) {
-    if (!is_over()) return;
     look_beside_ends();
     for (std::size_t before = 0; before < lines() && !is_over();) {
       before = lines();
       try_seeds();
     }
+  }
+  /// A part of the search is done, and what was found is no line of some length: what is bright here hides
+  /// it.
+  bool sees_crumbs_only() const { return !chains_tried_ && futile_ > crowd_ && missing() > most_missing_; }
+  /// From here on seeds that lie in a row are tried for a while.
+  void look_along_chains() { futile_ = most() - along_chains_; }
+  /// Does so once a picture; what it costs does not count in the search for other lines.
+  template <class TryChains>
+  void try_chains(const TryChains& try_chains) {
+    if (chains_tried_) return;
+    chains_tried_ = true;
+    const double before = futile_;
+    look_along_chains();
+    try_chains();
+    futile_ = before;
   }
   /// Whether a line that begins at (x, y) px may be the rest of one that was found.
   bool is_beside_end(int x, int y) const;
@@ -48,6 +62,8 @@ class SearchPatience {
     double width = 0;                 ///< px
   };
   bool is_beside(const End& end, int x, int y) const;
+  /// Of the picture's shorter side, what is not yet found.
+  double missing() const;
   double most() const;
 
   double futile_ = 0;
@@ -55,6 +71,8 @@ class SearchPatience {
   double shorter_ = 0;           ///< px, side of the picture
   double least_ = 0, most_ = 0;  ///< points, with a whole line and with none
   double beside_ends_ = 0, reach_widths_ = 0;
+  double crowd_ = 0, along_chains_ = 0, most_missing_ = 1;
+  bool chains_tried_ = false;
   std::vector<End> ends_;
 };
 
