@@ -18,6 +18,8 @@ constexpr double kOverEdges = 1.2, kOverBrightSides = 1.15, kManyEdges = 0.25;
 constexpr double kLongAndEven = 2.5;
 /// Of the least length: evidence that a line needs, with and without the laser's colour.
 constexpr double kColouredEvidence = 0.4, kGreyEvidence = 0.6;
+/// Of the points of a line with even flanks; on bright lines of a picture less is rare.
+constexpr double kEvenFlanks = 0.75;
 /// Of the points of a line.
 constexpr double kMostlyClipped = 0.5;
 /// Of the least length, for a line that goes on where a kept one ends.
@@ -27,16 +29,17 @@ constexpr double kGoingOn = 0.4;
 struct Reference {
   double intensity = 0;  ///< of the brightest line, short ones counting less
   double rise = 0;       ///< the same of the laser's colour
-  double width = 0;      ///< px, of the lines at least half as bright
+  double width = 0;      ///< px, of the lines at least half as bright, with even flanks where there are any
 };
 
-/// Median of the widths of the lines that are at least so bright, weighted by their length; px.
-double commonest_width(std::span<const FilteredLines> groups, double least_intensity) {
+/// Median of the widths of the lines that are at least so bright and even, weighted by their length; px. 0
+/// where there are none.
+double commonest_width(std::span<const FilteredLines> groups, double least_intensity, double least_flanks) {
   std::array<double, 64> lengths{};  // by the width in eighths of an octave
   double total = 0;
   for (const FilteredLines& group : groups)
     for (const LineFacts& line : *group.facts) {
-      if (line.intensity < least_intensity) continue;
+      if (line.intensity < least_intensity || line.flanks < least_flanks) continue;
       const double index = std::clamp(8 * std::log2(std::max(line.width, 1.0)), 0.0, 63.0);
       lengths[static_cast<std::size_t>(index)] += line.length;
       total += line.length;
@@ -59,7 +62,8 @@ Reference strong_stripe(std::span<const FilteredLines> groups, const LineFilterO
       if (line.colour.known) reference.rise = std::max(reference.rise, counts * line.colour.rise);
     }
   }
-  reference.width = commonest_width(groups, 0.5 * reference.intensity);
+  reference.width = commonest_width(groups, 0.5 * reference.intensity, kEvenFlanks);
+  if (reference.width == 0) reference.width = commonest_width(groups, 0.5 * reference.intensity, 0);
   return reference;
 }
 
@@ -79,6 +83,7 @@ struct Judge {
   double height_of_edges = 0, level_of_edges = 0;
 
   bool is_no_edge(const DerivativeKernels& kernels, const LineFacts& line) const;
+  bool is_shading(const LineFacts& line) const;
   bool is_visible(const DerivativeKernels& kernels, const LineFacts& line) const;
   bool is_bright_enough(const DerivativeKernels& kernels, const LineFacts& line, bool goes_on) const;
 };
@@ -97,6 +102,14 @@ bool Judge::is_no_edge(const DerivativeKernels& kernels, const LineFacts& line) 
   return line.even_length() >= kLongAndEven * options.min_length * full_width_of(kernels.sigma);
 }
 
+/// Where no colour tells the laser: what is broader than this picture's lines and falls off unevenly is a
+/// thing in other light. Light out of focus is broad, but even.
+bool Judge::is_shading(const LineFacts& line) const {
+  constexpr double kBroader = 1.5;
+  return rule.width_slack > 1 && !line.colour_known && line.flanks < kEvenFlanks &&
+         line.width > kBroader * reference.width && line.clipped_share < kMostlyClipped;
+}
+
 bool Judge::is_visible(const DerivativeKernels& kernels, const LineFacts& line) const {
   // Single pixels of a wide stripe may drown in noise that its ridge stands out of.
   const double visible = options.min_contrast_to_noise * rule.noise / std::max(1.0, kernels.sigma);
@@ -107,6 +120,7 @@ bool Judge::is_visible(const DerivativeKernels& kernels, const LineFacts& line) 
 /// Brightness against the strong lines: weak lines have to be regular and as wide as the strong ones.
 /// `goes_on`: the line begins where one ends that is bright enough.
 bool Judge::is_bright_enough(const DerivativeKernels& kernels, const LineFacts& line, bool goes_on) const {
+  if (is_shading(line)) return false;
   const double min_length = (goes_on ? kGoingOn : 1.0) * options.min_length;
   // What the camera clips in the laser's colour is as bright as a line can be, whatever glows beside it.
   const bool clipped_light = line.colour_known && line.clipped_share > kMostlyClipped;
@@ -122,9 +136,9 @@ bool Judge::is_bright_enough(const DerivativeKernels& kernels, const LineFacts& 
     return false;
   if (share > options.clear_contrast) return true;
   // Mirror images and gleams are about as faint as this, but seldom as long and as even as the laser's line.
-  constexpr double kFaint = 0.15, kEvenFlanks = 0.5;
+  constexpr double kFaint = 0.15, kHalfEven = 0.5;
   if (share < kFaint &&
-      (line.length < 3 * min_length * full_width || line.flanks < kEvenFlanks ||
+      (line.length < 3 * min_length * full_width || line.flanks < kHalfEven ||
        line.odd_share > std::min(goes_on ? 1.0 : 0.005 * widths, 0.4) || line.coloured_share < 0.8))
     return false;
   // The weaker, the longer: dim edges are short.

@@ -58,18 +58,27 @@ TEST(FaintLines, AsLongAsTheStrongOneAFaintLineNeedsNoOther) {
 /// Edges of 110 grey levels, whose brighter sides are at 130.
 constexpr EdgeCrowd kManyEdges{2000, 2000 * 110, 2000 * 130};
 
-/// Whether one line of these facts stays in a grey picture with these edges.
-bool stays(const LineFacts& facts, const EdgeCrowd& edges) {
+/// How many lines of these facts stay in a grey picture with these edges; they lie far from each other.
+std::size_t how_many_stay(std::vector<LineFacts> all, const EdgeCrowd& edges) {
   const DerivativeKernels kernels = make_derivative_kernels(2);
   LineSet lines;
-  lines.points.resize(static_cast<std::size_t>(facts.length));
-  lines.lines = {{0, lines.points.size()}};
-  std::vector<LineFacts> all = {facts};
-  all[0].mean_strength = facts.intensity * kernels.matched_strength();
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    const std::size_t begin = lines.points.size();
+    lines.points.resize(begin + static_cast<std::size_t>(all[k].length));
+    for (std::size_t i = begin; i < lines.points.size(); ++i) {
+      lines.points[i].x = 500.0 * static_cast<double>(k);
+      lines.points[i].y = static_cast<double>(i - begin);
+    }
+    lines.lines.push_back({begin, lines.points.size()});
+    all[k].mean_strength = all[k].intensity * kernels.matched_strength();
+  }
   const FilteredLines group{&kernels, &lines, &all};
   drop_faint_lines({&group, 1}, {}, {1, 2, 20, 220}, edges);
-  return !lines.lines.empty();
+  return lines.lines.size();
 }
+
+/// Whether one line of these facts stays.
+bool stays(const LineFacts& facts, const EdgeCrowd& edges) { return how_many_stay({facts}, edges) == 1; }
 
 TEST(FaintLines, AmongEdgesALineIsHigherOrBrighterThanTheyAreOrLongAndEven) {
   const LineFacts line{.length = 60, .width = 7, .intensity = 115, .level = 140, .flanks = 0.9, .colour = {}};
@@ -93,6 +102,23 @@ TEST(FaintLines, ABarWithAFlatTopBelowTheEndOfTheRangeIsNoLight) {
   EXPECT_FALSE(stays(bar, {}));
   bar.clipped_share = 1;
   EXPECT_TRUE(stays(bar, kManyEdges));
+}
+
+TEST(FaintLines, BroaderAndUnevenIsAThingInOtherLight) {
+  const LineFacts line{
+      .length = 300, .width = 6, .intensity = 60, .level = 100, .flanks = 0.95, .colour = {}};
+  LineFacts shading = line;
+  shading.width = 25;
+  shading.flanks = 0.6;
+  EXPECT_EQ(how_many_stay({line, shading}, {}), 1U);
+  // Not a line out of focus, a glowing one as wide as the others, bloom, or what has the laser's colour.
+  LineFacts out_of_focus = shading, glowing = shading, bloom = shading, coloured = shading;
+  out_of_focus.flanks = 0.9;
+  glowing.width = 7;
+  bloom.clipped_share = 0.8;
+  coloured.colour_known = true;
+  for (const LineFacts& light : {out_of_focus, glowing, bloom, coloured})
+    EXPECT_EQ(how_many_stay({line, light}, {}), 2U);
 }
 
 }  // namespace
