@@ -156,7 +156,7 @@ double track_score(const cv::Mat& filled, const cv::Mat& plane, double least, in
     if (coloured) {
       // Demosaicing gives the edges of grey things coloured fringes, faint against the edge itself.
       const auto [low, high] = std::minmax_element(raw + best_x - reach, raw + best_x + reach + 1);
-      coloured = 5 * best >= *high - *low;
+      coloured = 10 * best >= *high - *low;
     }
     if (!coloured || std::abs(best_x - last_x) > kTrackJump) end_run();
     if (coloured) {
