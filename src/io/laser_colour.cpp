@@ -170,14 +170,25 @@ double track_score(const cv::Mat& filled, const cv::Mat& plane, double least, in
   return score;
 }
 
+/// Scatter of a plane over the places of a mask.
+double scatter(const cv::Mat& plane, const cv::Mat& mask) {
+  cv::Scalar mean, deviation;
+  cv::meanStdDev(plane, mean, deviation, mask);
+  return deviation[0];
+}
+
 /// How much the other two planes vary where the laser is, other than with its light, over the laser's top:
-/// what is printed or grows there in room light, which the laser's own plane shows as well.
+/// what is printed or grows there in room light, which the laser's own plane shows as well. That varies
+/// beside the laser as much; a core that the light has bleached does not.
 double texture_under_laser(const ColourPlanes& bgr, std::size_t plane, const ColourRise& rise,
                            const cv::Mat& sure) {
-  cv::Mat others, where;
+  constexpr int kBeside = 3;  // margins
+  cv::Mat others, where, beside;
   cv::max(bgr.at((plane + 1) % 3), bgr.at((plane + 2) % 3), others);
   cv::blur(others, others, {3, 3});
   cv::dilate(sure, where, square(kMargin));
+  cv::dilate(sure, beside, square(kBeside * kMargin));
+  beside.setTo(0, where);
   double n = 0, e = 0, o = 0, ee = 0, eo = 0, oo = 0;
   for (int y = 0; y < where.rows; ++y)
     for (int x = 0; x < where.cols; ++x) {
@@ -188,7 +199,7 @@ double texture_under_laser(const ColourPlanes& bgr, std::size_t plane, const Col
   const double var_light = n * ee - e * e, cov = n * eo - e * o;
   if (var_light <= 0) return 0;
   const double rest = (n * oo - o * o - cov * cov / var_light) / (n * n);
-  return std::sqrt(std::max(0.0, rest)) / std::max(rise.top, 1.0);
+  return std::min(std::sqrt(std::max(0.0, rest)), scatter(others, beside)) / std::max(rise.top, 1.0);
 }
 
 /// Light that has outgrown the camera's range loses its colour wherever the camera, its tone curve or a blur

@@ -134,6 +134,20 @@ TEST(LaserVote, TellsALineOverAPrintThatOutshinesIt) {
   EXPECT_FALSE(vote_for_laser(room_with_line({300, 300, 1500})).textured);  // clipped: the excess is hollow
 }
 
+TEST(LaserVote, WhiteGlintsOfTheLineItselfAreNoPrintUnderIt) {
+  // Every other 12 rows the line's middle glints white, and nothing else is lit.
+  ColourPlanes planes = room_with_line({0, 0, 60});
+  for (int y = 0; y < 240; ++y)
+    for (int x = 148; x < 172; ++x)
+      for (ColourPlanes::value_type& plane : planes)
+        plane.at<std::uint8_t>(y, x) = static_cast<std::uint8_t>(
+            plane.at<std::uint8_t>(y, x) +
+            (y / 12 % 2 == 0 ? 110 : 0) * std::exp(-0.5 * (x - 160) * (x - 160) / 16.0));
+  const LaserVote vote = vote_for_laser(planes);
+  EXPECT_EQ(vote.plane, 2);
+  EXPECT_FALSE(vote.textured);
+}
+
 TEST(WhereLaserColour, ColouredFringesOfAnEdgeAreNoLaser) {
   // A white sheet on black, whose lower edge has a fringe of 12 grey levels of red: a lens does that.
   ColourPlanes planes = room_with_line({0, 0, 60});
