@@ -76,7 +76,7 @@ struct FollowTuning {
   /// things hide the line; rows of seeds are looked at then, none shorter than that part of the side.
   double futile_points_of_crowd = 0.3, missing_in_crowd = 0.5, least_chain = 0.15;
   /// What is tried along the rows until one leads to a line, and again from there.
-  double futile_points_along_chains = 0.4;
+  double futile_points_along_chains = 0.15;
   /// Of the least length, for a line as bright as the strongest: so much is a line that may go on.
   double evident_line = 0.4;
   /// Full widths: so far from a line's end, straight on, its rest may stand out first.

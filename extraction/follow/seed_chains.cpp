@@ -10,42 +10,45 @@ namespace {
 
 constexpr int kFreeAside = 2;  // cells to both sides of a chain
 
-/// A level's cells, seen along one axis: `along` steps through the cells of a row (or column), `aside` from
-/// one row (or column) to the next.
+/// A level's cells, seen along one axis: cells beside each other across it lie beside each other in memory,
+/// with free ones at both ends, so that a step along the axis is one pass of vectors.
 struct CellGrid {
-  std::ptrdiff_t along = 1, aside = 1;
-  int length = 0, count = 0;
-  std::size_t at(int i, int j) const { return static_cast<std::size_t>(i * along + j * aside); }
+  int shift = 0;  ///< px to cells
+  bool along_rows = true;
+  int length = 0, count = 0;  ///< cells along the axis, and across it
+  std::size_t pitch() const { return static_cast<std::size_t>(count + 2 * kFreeAside); }
+  std::size_t at(const ScaleSeed& s) const {
+    const int along = (along_rows ? s.x : s.y) >> shift, across = (along_rows ? s.y : s.x) >> shift;
+    return static_cast<std::size_t>(along) * pitch() + static_cast<std::size_t>(across + kFreeAside);
+  }
+  std::size_t size() const { return static_cast<std::size_t>(length) * pitch(); }
 };
 
-/// Seeds without others close to both of their sides.
-void find_lone(const CellGrid& grid, const std::vector<std::uint8_t>& taken,
-               std::vector<std::uint8_t>& lone) {
-  lone.assign(taken.size(), 0);
-  for (int j = 0; j < grid.count; ++j)
-    for (int i = 0; i < grid.length; ++i) {
-      if (taken[grid.at(i, j)] == 0) continue;
-      const bool before = j >= kFreeAside && taken[grid.at(i, j - kFreeAside)] != 0;
-      const bool after = j + kFreeAside < grid.count && taken[grid.at(i, j + kFreeAside)] != 0;
-      lone[grid.at(i, j)] = before || after ? 0 : 1;
-    }
+/// What a cell adds to a chain: 1 with a seed and none close to both of its sides, else -1.
+void find_gains(const std::vector<std::uint8_t>& taken, std::vector<std::int16_t>& gains) {
+  gains.assign(taken.size(), -1);
+  for (std::size_t k = kFreeAside; k + kFreeAside < taken.size(); ++k) {
+    const bool lone = taken[k] != 0 && (taken[k - kFreeAside] | taken[k + kFreeAside]) == 0;
+    gains[k] = lone ? std::int16_t{1} : std::int16_t{-1};
+  }
 }
 
-/// Of each cell the best chain that ends there and comes from `from` (1: from the beginning, -1: from the
-/// end).
-void add_up(const CellGrid& grid, const std::vector<std::uint8_t>& lone, int from,
+/// Of each cell the best chain that ends there and comes from the beginning, or from the end.
+void add_up(const CellGrid& grid, const std::vector<std::int16_t>& gains, bool from_end,
             std::vector<std::int16_t>& sums) {
-  sums.assign(lone.size(), 0);
-  for (int k = 0; k < grid.length; ++k) {
-    const int i = from > 0 ? k : grid.length - 1 - k;
-    for (int j = 0; j < grid.count; ++j) {
-      int best = 0;
-      if (k > 0)
-        for (int n = std::max(0, j - 1); n <= std::min(grid.count - 1, j + 1); ++n)
-          best = std::max<int>(best, sums[grid.at(i - from, n)]);
-      sums[grid.at(i, j)] =
-          static_cast<std::int16_t>(std::max(0, best + (lone[grid.at(i, j)] != 0 ? 1 : -1)));
+  sums.assign(gains.size(), 0);
+  const std::size_t pitch = grid.pitch(), last = static_cast<std::size_t>(grid.length - 1);
+  const std::vector<std::int16_t> none(pitch, 0);
+  const std::int16_t* before = none.data();
+  for (std::size_t k = 0; k <= last; ++k) {
+    const std::size_t row = (from_end ? last - k : k) * pitch;
+    std::int16_t* sum = sums.data() + row;
+    const std::int16_t* gain = gains.data() + row;
+    for (std::size_t j = kFreeAside; j + kFreeAside < pitch; ++j) {
+      const std::int16_t best = std::max(std::max(before[j - 1], before[j + 1]), before[j]);
+      sum[j] = std::max<std::int16_t>(0, static_cast<std::int16_t>(best + gain[j]));
     }
+    before = sum;
   }
 }
 
@@ -53,21 +56,18 @@ void add_up(const CellGrid& grid, const std::vector<std::uint8_t>& lone, int fro
 void measure_chains(std::span<const ScaleSeed> seeds, int level, int width, int height,
                     SeedChainWorkspace& w) {
   const int shift = level + kTriedCellShift, columns = (width >> shift) + 1, rows = (height >> shift) + 1;
-  const auto cell = [&](const ScaleSeed& s) {
-    return static_cast<std::size_t>(s.y >> shift) * static_cast<std::size_t>(columns) +
-           static_cast<std::size_t>(s.x >> shift);
-  };
-  w.taken.assign(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), 0);
-  for (const ScaleSeed& s : seeds)
-    if (s.level == level) w.taken[cell(s)] = 1;
-  for (const CellGrid& grid : {CellGrid{1, columns, columns, rows}, CellGrid{columns, 1, rows, columns}}) {
-    find_lone(grid, w.taken, w.lone);
-    add_up(grid, w.lone, 1, w.forward);
-    add_up(grid, w.lone, -1, w.backward);
+  for (const CellGrid& grid : {CellGrid{shift, true, columns, rows}, CellGrid{shift, false, rows, columns}}) {
+    w.taken.assign(grid.size(), 0);
+    for (const ScaleSeed& s : seeds)
+      if (s.level == level) w.taken[grid.at(s)] = 1;
+    find_gains(w.taken, w.gains);
+    add_up(grid, w.gains, false, w.forward);
+    add_up(grid, w.gains, true, w.backward);
     for (std::size_t k = 0; k < seeds.size(); ++k) {
-      if (seeds[k].level != level || w.lone[cell(seeds[k])] == 0) continue;
-      const int cells = w.forward[cell(seeds[k])] + w.backward[cell(seeds[k])] - 1;
-      w.length[k] = std::max(w.length[k], cells << shift);
+      if (seeds[k].level != level) continue;
+      const std::size_t cell = grid.at(seeds[k]);
+      if (w.gains[cell] > 0)
+        w.length[k] = std::max(w.length[k], (w.forward[cell] + w.backward[cell] - 1) << shift);
     }
   }
 }

@@ -13,8 +13,8 @@ namespace lightstripe {
 
 /// Scratch memory: cells of one level of the pyramid.
 struct SeedChainWorkspace {
-  std::vector<std::uint8_t> taken, lone;
-  std::vector<std::int16_t> forward, backward;
+  std::vector<std::uint8_t> taken;
+  std::vector<std::int16_t> gains, forward, backward;
   std::vector<std::int32_t> length;  ///< px, of each seed's chain
 };
 
