@@ -69,8 +69,8 @@ bool is_bright_along(const PixelLine<T>& line, int place, double level, int leng
 }
 
 /// The runs over `level` among the cut's pixels [begin, end). In one that is too long, a glow or a lit floor,
-/// the stripe is what stands out over half of its height. It is shorter by more than a stripe's own feet are
-/// wide, or two stripes touch there; and it does not run along the cut.
+/// the stripe is what stands out over half of its height. It is at most half as long, or two stripes touch
+/// there; and it does not run along the cut.
 template <class T>
 void runs_over(const Cut<T>& cut, int begin, int end, double level, const RunRule& rule,
                std::vector<BrightRun>& runs) {

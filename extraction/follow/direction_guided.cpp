@@ -155,7 +155,7 @@ template <class T>
 void SeedSearch<T>::run() {
   w.patience.reset(finder.image.width, finder.image.height, tuning);
   try_seeds(false);
-  if (w.patience.is_over()) w.patience.try_beside_ends([this] { try_seeds(true); });
+  w.patience.try_beside_ends([this] { try_seeds(true); });
 }
 
 }  // namespace

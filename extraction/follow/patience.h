@@ -27,9 +27,10 @@ class SearchPatience {
   bool is_over() const { return futile_ > most(); }
   /// From here on lines begin beside the ends of other ones only, and that is tried for a while.
   void look_beside_ends() { futile_ = most() - beside_ends_; }
-  /// Does so, and again as long as that finds lines, which have ends of their own.
+  /// Does so where the search is over, and again as long as that finds lines, which have ends of their own.
   template <class TrySeeds>
   void try_beside_ends(const TrySeeds& try_seeds) {
+    if (!is_over()) return;
     look_beside_ends();
     for (std::size_t before = 0; before < lines() && !is_over();) {
       before = lines();
@@ -43,12 +44,12 @@ class SearchPatience {
   void look_along_chains() { futile_ = most() - along_chains_; }
   /// Does so once a picture; what it costs does not count in the search for other lines.
   template <class TryChains>
-  void try_chains(const TryChains& try_chains) {
+  void try_chains(const TryChains& try_seeds_of_chains) {
     if (chains_tried_) return;
     chains_tried_ = true;
     const double before = futile_;
     look_along_chains();
-    try_chains();
+    try_seeds_of_chains();
     futile_ = before;
   }
   /// Whether a line that begins at (x, y) px may be the rest of one that was found.

@@ -67,17 +67,25 @@ double top_level(const cv::Mat& level) {
   return 0;
 }
 
-/// Lenses and demosaicing give the edges of grey things coloured fringes, faint against the edge itself.
+cv::Mat larger_of_others(const ColourPlanes& bgr, std::size_t plane) {
+  cv::Mat larger;
+  cv::max(bgr.at((plane + 1) % 3), bgr.at((plane + 2) % 3), larger);
+  return larger;
+}
+
+/// Lenses and demosaicing give the edges of grey things coloured fringes, faint against the edge itself: that
+/// is so many times as strong.
+constexpr int kEdgeOverFringe = 10;
+
 cv::Mat is_fringe(const ColourPlanes& bgr, std::size_t plane, const cv::Mat& level) {
-  constexpr int kReach = 3;          // px
-  constexpr double kFaintest = 0.1;  // of the edge
-  cv::Mat others, brightest, darkest, edge, colour;
-  cv::max(bgr.at((plane + 1) % 3), bgr.at((plane + 2) % 3), others);
+  constexpr int kReach = 3;  // px
+  const cv::Mat others = larger_of_others(bgr, plane);
+  cv::Mat brightest, darkest, edge, colour;
   cv::dilate(others, brightest, square(kReach));
   cv::erode(others, darkest, square(kReach));
   cv::subtract(brightest, darkest, edge, cv::noArray(), CV_32F);
   level.convertTo(colour, CV_32F);
-  return colour < kFaintest * edge;
+  return colour < 1.0 / kEdgeOverFringe * edge;
 }
 
 /// Where the plane's range ends: at 255, or lower (video range, a tone curve), where that level is so much
@@ -154,9 +162,8 @@ double track_score(const cv::Mat& filled, const cv::Mat& plane, double least, in
     }
     bool coloured = best >= least;
     if (coloured) {
-      // Demosaicing gives the edges of grey things coloured fringes, faint against the edge itself.
       const auto [low, high] = std::minmax_element(raw + best_x - reach, raw + best_x + reach + 1);
-      coloured = 10 * best >= *high - *low;
+      coloured = kEdgeOverFringe * best >= *high - *low;
     }
     if (!coloured || std::abs(best_x - last_x) > kTrackJump) end_run();
     if (coloured) {
@@ -183,8 +190,7 @@ double scatter(const cv::Mat& plane, const cv::Mat& mask) {
 double texture_under_laser(const ColourPlanes& bgr, std::size_t plane, const ColourRise& rise,
                            const cv::Mat& sure) {
   constexpr int kBeside = 3;  // margins
-  cv::Mat others, where, beside;
-  cv::max(bgr.at((plane + 1) % 3), bgr.at((plane + 2) % 3), others);
+  cv::Mat others = larger_of_others(bgr, plane), where, beside;
   cv::blur(others, others, {3, 3});
   cv::dilate(sure, where, square(kMargin));
   cv::dilate(sure, beside, square(kBeside * kMargin));
