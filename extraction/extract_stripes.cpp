@@ -73,9 +73,9 @@ FollowRule follow_rule(const Run<T>& run) {
   return rule;
 }
 
-/// Measures and judges the lines of all scales.
+/// Measures and judges the lines of all scales. `extent`: as in FaintLineRule.
 template <class T>
-void filter_groups(const Run<T>& run, double width_slack) {
+void filter_groups(const Run<T>& run, double width_slack, double extent) {
   ExtractionWorkspace& w = run.w;
   w.facts.resize(std::max(w.facts.size(), w.groups.count));
   w.filtered.clear();
@@ -94,7 +94,7 @@ void filter_groups(const Run<T>& run, double width_slack) {
   constexpr double kNearTop = 0.9;
   const double range_end = run.options.polarity == Polarity::kDark ? 0.0 : kNearTop * brightest;
   drop_faint_lines(w.filtered, run.options.lines,
-                   {run.facts.noise.seen, width_slack, least_height, range_end}, w.tests.edges);
+                   {run.facts.noise.seen, width_slack, least_height, range_end, extent}, w.tests.edges);
 }
 
 /// The foot of a glowing stripe is up to twice as wide as the core that chose the scale, and a width that a
@@ -131,7 +131,7 @@ void find_lines(const Run<T>& run) {
                                lines);
       break;
   }
-  filter_groups(run, run.options.method == ExtractionMethod::kDirectionGuided ? kWidthSlack : 1.0);
+  filter_groups(run, run.options.method == ExtractionMethod::kDirectionGuided ? kWidthSlack : 1.0, 0);
 }
 
 /// Each line at its own scale; `result.sigma` becomes that of the longest one.
@@ -155,7 +155,10 @@ void find_lines_at_own_scale(const Run<T>& run) {
                            }};
   follow_lines_at_own_scale(search, limits, w.kernel_cache, w.direction_guided<T>(), w.own_scale<T>(),
                             w.groups);
-  filter_groups(run, kWidthSlack);
+  // On a board the line is known to be there; dark lines and 16 bits have no levels to compare with.
+  const bool doubtful =
+      sizeof(T) == 1 && !run.options.on_pattern && run.options.polarity == Polarity::kBright;
+  filter_groups(run, kWidthSlack, doubtful ? 1.0 * (run.image.width + run.image.height) : 0.0);
   std::size_t longest = 0;
   for (const ScaleGroup& group : w.groups.used())
     for (const LineRange& r : group.lines.lines) {

@@ -227,6 +227,31 @@ bool keep_continuations(std::span<const FilteredLines> groups, const Judge& judg
   return found;
 }
 
+/// Grey levels; what is brighter is no more a line.
+constexpr double kEnoughLight = 60;
+
+/// What speaks for a line in a whole picture, px times grey levels: how long and even it is, times the light
+/// that it adds in the laser's colour.
+double light_of(const LineFacts& line) {
+  const double light = line.colour.known ? line.colour.rise : line.intensity;
+  return line.even_length() * std::clamp(light, 0.0, kEnoughLight);
+}
+
+/// Whether the kept lines are what the picture shows, and not the strongest of the things in it: the more
+/// speaks for other things, the more has to speak for the lines.
+bool shows_laser(std::span<const FilteredLines> groups, const EdgeCrowd& edges, double extent) {
+  // Grey levels that a line as long as width + height adds, where as much speaks for other things.
+  constexpr double kEvident = 2.4;
+  constexpr double kClipped = 0.2;  // of the light: what outshines the picture's range is no thing in it
+  double kept = 0, clipped = 0, others = edges.length * std::min(0.5 * edges.height(), kEnoughLight);
+  for (const FilteredLines& group : groups)
+    for (const LineFacts& line : *group.facts) {
+      (line.kept ? kept : others) += light_of(line);
+      if (line.kept) clipped += line.clipped_share * light_of(line);
+    }
+  return kept * kept >= kEvident * extent * others || clipped >= kClipped * kept;
+}
+
 double length_of(std::span<const FilteredLines> groups) {
   double length = 0;
   for (const FilteredLines& group : groups)
@@ -262,6 +287,9 @@ void drop_faint_lines(std::span<const FilteredLines> groups, const LineFilterOpt
                   judge.is_bright_enough(*group.kernels, line, false);
   while (rule.width_slack > 1 && keep_continuations(groups, judge)) {
   }
+  if (rule.extent > 0 && !shows_laser(groups, edges, rule.extent))
+    for (const FilteredLines& group : groups)
+      for (LineFacts& line : *group.facts) line.kept = false;
   for (const FilteredLines& group : groups) drop_lines(*group.lines, *group.facts);
 }
 

@@ -59,7 +59,8 @@ TEST(FaintLines, AsLongAsTheStrongOneAFaintLineNeedsNoOther) {
 constexpr EdgeCrowd kManyEdges{2000, 2000 * 110, 2000 * 130};
 
 /// How many lines of these facts stay in a grey picture with these edges; they lie far from each other.
-std::size_t how_many_stay(std::vector<LineFacts> all, const EdgeCrowd& edges) {
+/// `extent`: as in FaintLineRule.
+std::size_t how_many_stay(std::vector<LineFacts> all, const EdgeCrowd& edges, double extent = 0) {
   const DerivativeKernels kernels = make_derivative_kernels(2);
   LineSet lines;
   for (std::size_t k = 0; k < all.size(); ++k) {
@@ -73,7 +74,7 @@ std::size_t how_many_stay(std::vector<LineFacts> all, const EdgeCrowd& edges) {
     all[k].mean_strength = all[k].intensity * kernels.matched_strength();
   }
   const FilteredLines group{&kernels, &lines, &all};
-  drop_faint_lines({&group, 1}, {}, {1, 2, 20, 220}, edges);
+  drop_faint_lines({&group, 1}, {}, {1, 2, 20, 220, extent}, edges);
   return lines.lines.size();
 }
 
@@ -119,6 +120,21 @@ TEST(FaintLines, BroaderAndUnevenIsAThingInOtherLight) {
   coloured.colour_known = true;
   for (const LineFacts& light : {out_of_focus, glowing, bloom, coloured})
     EXPECT_EQ(how_many_stay({line, light}, {}), 2U);
+}
+
+TEST(FaintLines, TheStrongestOfAPicturesThingsIsNoLaser) {
+  constexpr double kExtent = 1100;
+  // 60 px of 40 grey levels, in a picture with 100 px of edges twice as high.
+  const LineFacts thing{.length = 60, .width = 6, .intensity = 40, .level = 200, .flanks = 0.9, .colour = {}};
+  const EdgeCrowd edges{100, 100 * 80, 100 * 120};
+  EXPECT_EQ(how_many_stay({thing}, edges, kExtent), 0U);
+  EXPECT_EQ(how_many_stay({thing}, {}, kExtent), 1U);  // nothing else is there: a wire in the dark
+  EXPECT_EQ(how_many_stay({thing}, edges, 0), 1U);     // somebody says that there is a line
+  LineFacts line = thing, clipped = thing;
+  line.length = 300;
+  clipped.clipped_share = 0.5;
+  EXPECT_EQ(how_many_stay({line}, edges, kExtent), 1U);
+  EXPECT_EQ(how_many_stay({clipped}, edges, kExtent), 1U);
 }
 
 }  // namespace
