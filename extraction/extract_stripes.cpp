@@ -73,9 +73,15 @@ FollowRule follow_rule(const Run<T>& run) {
   return rule;
 }
 
-/// Measures and judges the lines of all scales. `extent`: as in FaintLineRule.
+/// Nobody said how wide the stripes are, and the method can tell line by line.
+bool scales_are_free(const ExtractionOptions& options, const ParsedOptions& parsed) {
+  return !options.sigma && !options.stripe_width && !parsed.start &&
+         options.method == ExtractionMethod::kDirectionGuided;
+}
+
+/// Measures and judges the lines of all scales.
 template <class T>
-void filter_groups(const Run<T>& run, double width_slack, double extent) {
+void filter_groups(const Run<T>& run, double width_slack) {
   ExtractionWorkspace& w = run.w;
   w.facts.resize(std::max(w.facts.size(), w.groups.count));
   w.filtered.clear();
@@ -92,7 +98,12 @@ void filter_groups(const Run<T>& run, double width_slack, double extent) {
   const double least_height = width_slack > 1 && sizeof(T) == 1 ? 20.0 : 0.0;
   // Of video's range, tone curves and 16 bits it is not known where the camera clips. Dark lines may be flat.
   constexpr double kNearTop = 0.9;
-  const double range_end = run.options.polarity == Polarity::kDark ? 0.0 : kNearTop * brightest;
+  const bool bright = run.options.polarity == Polarity::kBright;
+  const double range_end = bright ? kNearTop * brightest : 0.0;
+  // Who gives a width or a board says that a line is there.
+  const bool doubtful =
+      scales_are_free(run.options, run.parsed) && !run.options.on_pattern && sizeof(T) == 1 && bright;
+  const double extent = doubtful ? 1.0 * (run.image.width + run.image.height) : 0.0;
   drop_faint_lines(w.filtered, run.options.lines,
                    {run.facts.noise.seen, width_slack, least_height, range_end, extent}, w.tests.edges);
 }
@@ -131,7 +142,7 @@ void find_lines(const Run<T>& run) {
                                lines);
       break;
   }
-  filter_groups(run, run.options.method == ExtractionMethod::kDirectionGuided ? kWidthSlack : 1.0, 0);
+  filter_groups(run, run.options.method == ExtractionMethod::kDirectionGuided ? kWidthSlack : 1.0);
 }
 
 /// Each line at its own scale; `result.sigma` becomes that of the longest one.
@@ -155,10 +166,7 @@ void find_lines_at_own_scale(const Run<T>& run) {
                            }};
   follow_lines_at_own_scale(search, limits, w.kernel_cache, w.direction_guided<T>(), w.own_scale<T>(),
                             w.groups);
-  // On a board the line is known to be there; dark lines and 16 bits have no levels to compare with.
-  const bool doubtful =
-      sizeof(T) == 1 && !run.options.on_pattern && run.options.polarity == Polarity::kBright;
-  filter_groups(run, kWidthSlack, doubtful ? 1.0 * (run.image.width + run.image.height) : 0.0);
+  filter_groups(run, kWidthSlack);
   std::size_t longest = 0;
   for (const ScaleGroup& group : w.groups.used())
     for (const LineRange& r : group.lines.lines) {
@@ -219,12 +227,6 @@ ImageView<T> region_of(ImageView<T> image, const ParsedOptions& parsed) {
   const PixelRectangle& r = *parsed.roi;
   const int width = std::min(r.width, image.width - r.x), height = std::min(r.height, image.height - r.y);
   return width > 0 && height > 0 ? image.crop(r.x, r.y, width, height) : ImageView<T>{};
-}
-
-/// Nobody said how wide the stripes are, and the method can tell line by line.
-bool scales_are_free(const ExtractionOptions& options, const ParsedOptions& parsed) {
-  return !options.sigma && !options.stripe_width && !parsed.start &&
-         options.method == ExtractionMethod::kDirectionGuided;
 }
 
 void begin(ExtractionWorkspace& w, ExtractionResult& result) {

@@ -243,11 +243,13 @@ bool shows_laser(std::span<const FilteredLines> groups, const EdgeCrowd& edges, 
   // Grey levels that a line as long as width + height adds, where as much speaks for other things.
   constexpr double kEvident = 2.4;
   constexpr double kClipped = 0.2;  // of the light: what outshines the picture's range is no thing in it
+  // An edge's height is its one drop, a line's intensity the mean of its two.
   double kept = 0, clipped = 0, others = edges.length * std::min(0.5 * edges.height(), kEnoughLight);
   for (const FilteredLines& group : groups)
     for (const LineFacts& line : *group.facts) {
-      (line.kept ? kept : others) += light_of(line);
-      if (line.kept) clipped += line.clipped_share * light_of(line);
+      const double light = light_of(line);
+      (line.kept ? kept : others) += light;
+      if (line.kept) clipped += line.clipped_share * light;
     }
   return kept * kept >= kEvident * extent * others || clipped >= kClipped * kept;
 }
