@@ -55,7 +55,7 @@ void judge(const AmbientChange& change, double darker_share, const fs::path& pic
 
 }  // namespace
 
-Channel channel_for_background(Channel channel) {
+Channel channel_without_print(Channel channel) {
   switch (channel) {
     case Channel::kRedTextured:
       return Channel::kRedLaser;

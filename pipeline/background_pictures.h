@@ -15,9 +15,10 @@
 
 namespace lightstripe {
 
-/// The channel in which a pair is subtracted: what is printed on the scene goes with the background, so that
-/// the laser's own channel shows more of the laser than its excess.
-Channel channel_for_background(Channel channel);
+/// The channel to take where what is printed on the scene is known and will be subtracted: the laser's own
+/// channel shows more of the laser than its excess does. It also shows it where it is: many cameras' colour
+/// lies some tenths of a pixel beside their brightness.
+Channel channel_without_print(Channel channel);
 
 /// May be used by several threads.
 class BackgroundPictures {

@@ -34,8 +34,8 @@ GreyImage picture_of(const ExtractJob& job, const BackgroundPictures* background
   const std::string& file = job.images[index];
   GreyImage image = read_grey_image(file, job.channel, &channel);
   if (background == nullptr) return image;
-  if (job.channel == Channel::kAuto && channel_for_background(channel) != channel) {
-    channel = channel_for_background(channel);
+  if (job.channel == Channel::kAuto && channel_without_print(channel) != channel) {
+    channel = channel_without_print(channel);
     image = read_grey_image(file, channel);
   }
   return background->light_of(image, file, channel, &warning);

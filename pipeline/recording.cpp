@@ -58,7 +58,7 @@ void Recording::open_background(const Scan& scan, std::size_t sensor, const std:
   if (background.empty()) return;
   backgrounds_[sensor] =
       std::make_unique<BackgroundPictures>(scan.folder, background, scan_file + ": background");
-  const Channel channel = sources_[sensor]->channel(), wanted = channel_for_background(channel);
+  const Channel channel = sources_[sensor]->channel(), wanted = channel_without_print(channel);
   if (scan.channel == Channel::kAuto && wanted != channel)
     sources_[sensor] = open_frames(scan.folder, pattern, wanted);
 }

@@ -13,6 +13,17 @@ namespace lightstripe {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+/// Whether the sensor's stripes are looked for without what is printed on the board: it goes with a picture
+/// without the laser, and a checkerboard's is predicted.
+bool knows_print(const Session& session, const SessionSensor& sensor) {
+  return sensor.background || sensor.laser ||
+         (!sensor.board.empty() && session.target.type == TargetType::kCheckerboard);
+}
+
+}  // namespace
+
 std::vector<ViewTask> sensor_tasks(const Session& session, int index, const BackgroundPictures* background,
                                    std::vector<RejectedImage>& rejected) {
   const SessionSensor& sensor = session.sensors[static_cast<std::size_t>(index)];
@@ -123,7 +134,8 @@ std::vector<Channel> sensor_channels(const Session& session, const std::vector<V
         lit.push_back(table.parent_path() / name);
     }
     channels[sensor] = channel_of_pictures(lit);
-    if (session.sensors[sensor].background) channels[sensor] = channel_for_background(channels[sensor]);
+    if (knows_print(session, session.sensors[sensor]))
+      channels[sensor] = channel_without_print(channels[sensor]);
   }
   return channels;
 }

@@ -46,7 +46,8 @@ std::vector<ViewTask> session_tasks(const Session& session, const SensorBackgrou
 /// Sensor and file of every board picture, in the order of session_tasks().
 std::vector<std::pair<std::string, std::filesystem::path>> board_pictures(const Session& session);
 
-/// One channel for each sensor: what the session says, or the vote of the pictures that show its laser.
+/// One channel for each sensor: what the session says, or the vote of the pictures that show its laser; where
+/// the print is known, the laser's own channel.
 std::vector<Channel> sensor_channels(const Session& session, const std::vector<ViewTask>& tasks);
 
 }  // namespace lightstripe
