@@ -6,6 +6,7 @@
 
 #include <string_view>
 
+#include "io/raw_frames.h"
 #include "io/rig_file.h"
 #include "pipeline/recording.h"
 
@@ -51,7 +52,7 @@ std::map<std::int64_t, std::vector<FrameLink>> frame_links(const std::string& sc
       const std::string& name = rig.sensors[s].name;
       const std::string picture = recording.picture_name(frame, static_cast<int>(s));
       if (picture.empty()) continue;
-      const fs::path file = fs::absolute(scan.folder / file_of(patterns.at(name), picture));
+      const fs::path file = fs::absolute(scan.folder / file_of(files_of_frames(patterns.at(name)), picture));
       out[frame].push_back({name, escaped(file.lexically_proximate(folder).string())});
     }
   }

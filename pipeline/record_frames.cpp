@@ -11,6 +11,7 @@
 #include "core/error.h"
 #include "io/atomic_file.h"
 #include "io/number_text.h"
+#include "io/raw_frames.h"
 #include "io/tables.h"
 #include "io/yaml_binding.h"
 
@@ -166,7 +167,7 @@ fs::path note_of(const fs::path& frames) {
 
 bool recording_is_over(const Scan& scan) {
   return std::all_of(scan.frames.begin(), scan.frames.end(), [&](const auto& sensor) {
-    const fs::path note = note_of(scan.folder / sensor.second);
+    const fs::path note = note_of(scan.folder / files_of_frames(sensor.second));
     return fs::exists(note) && read_file(note).find("\nframes: ") != std::string::npos;
   });
 }

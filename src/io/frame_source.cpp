@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The lightstripe authors
 // SPDX-License-Identifier: Apache-2.0
-// Recorded sequences: a folder of pictures, a multi-page TIFF or a video file.
+// Recorded sequences: a folder of pictures, a multi-page TIFF, frames without a header or a video file.
 #include <fmt/format.h>
 #include <algorithm>
 #include <array>
@@ -10,8 +10,10 @@
 #include "io/atomic_file.h"
 #include "io/choose_channel.h"
 #include "io/frame_numbers.h"
+#include "io/frames_ahead.h"
 #include "io/images.h"
 #include "io/plain_pixels.h"
+#include "io/raw_frames.h"
 #include "io/tiff_pages.h"
 #include "io/video_frames.h"
 
@@ -71,7 +73,8 @@ class ImageFolder : public FrameSource {
   Picture look(std::int64_t index) const override {
     auto picture = map_picture(file(index), channel_);
     if (!picture) return read(index);
-    if (!picture->is_cached()) read_ahead_of(index);
+    const FramesAhead::Range next = ahead_.after(index, picture->is_cached());
+    for (std::int64_t k = next.begin; k < std::min(size(), next.end); ++k) read_ahead(file(k));
     return *std::move(picture);
   }
   std::optional<std::int64_t> number(std::int64_t index) const override {
@@ -80,11 +83,6 @@ class ImageFolder : public FrameSource {
   }
 
  private:
-  /// From a slow disk the next pictures come while this one is looked at.
-  void read_ahead_of(std::int64_t index) const {
-    constexpr std::int64_t kAhead = 8;
-    for (std::int64_t k = index + 1; k < std::min(size(), index + 1 + kAhead); ++k) read_ahead(file(k));
-  }
   std::size_t checked(std::int64_t index) const {
     LIGHTSTRIPE_CHECK(index >= 0 && index < size(), "a frame of the sequence");
     return static_cast<std::size_t>(index);
@@ -94,6 +92,7 @@ class ImageFolder : public FrameSource {
   std::vector<std::string> names_;
   std::vector<std::int64_t> numbers_;
   Channel channel_ = Channel::kAuto;
+  mutable FramesAhead ahead_;
 };
 
 }  // namespace
@@ -141,6 +140,11 @@ Channel channel_of_pictures(const std::vector<fs::path>& files) {
 
 std::unique_ptr<FrameSource> open_frames(const fs::path& base, const std::string& pattern, Channel channel) {
   std::error_code error;
+  if (is_raw(pattern)) {
+    if (is_excess(channel))
+      throw Error(pattern, "is grey and has no colour excess", "set channel: auto or gray");
+    return open_raw_frames(base, pattern);
+  }
   if (fs::is_directory(base / pattern, error))
     return std::make_unique<ImageFolder>(pictures_in(base, pattern), channel);
   FileNames files = list_file_names(base, pattern);

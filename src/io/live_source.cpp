@@ -10,6 +10,7 @@
 #include "core/error.h"
 #include "io/live_cameras.h"
 #include "io/number_text.h"
+#include "io/raw_frames.h"
 
 namespace lightstripe {
 namespace {
@@ -121,8 +122,8 @@ std::unique_ptr<LiveSource> open_live(const std::string& source, const LiveOptio
   const SourceText text = parse_source(source);
   if (text.scheme == "aravis") return open_aravis(text, options);
   if (!text.scheme.empty()) return open_capture(text, options);
-  refuse_other_options(text, {"frame_rate"});
-  return std::make_unique<Playback>(text.place, text, options.channel);
+  if (!is_raw(source)) refuse_other_options(text, {"frame_rate"});
+  return std::make_unique<Playback>(is_raw(source) ? source : text.place, text, options.channel);
 }
 
 }  // namespace lightstripe

@@ -19,6 +19,7 @@
 
 #include "core/error.h"
 #include "io/images.h"
+#include "io/raw_frames.h"
 
 namespace lightstripe {
 namespace {
@@ -152,7 +153,7 @@ std::vector<fs::path> tables_of(const Scan& scan) {
 
 std::vector<fs::path> pictures_of(const Scan& scan) {
   std::vector<fs::path> files;
-  for (const auto& [sensor, pattern] : scan.frames) add_pattern(scan.folder, pattern, files);
+  for (const auto& [sensor, pattern] : scan.frames) add_pattern(scan.folder, files_of_frames(pattern), files);
   for (const auto& [sensor, pattern] : scan.background.of_sensor) add_pattern(scan.folder, pattern, files);
   return files;
 }

@@ -166,11 +166,22 @@ std::shared_ptr<const MappedFile> MappedFile::open(const std::filesystem::path& 
 
 MappedFile::~MappedFile() { ::munmap(const_cast<char*>(data_), size_); }
 
-bool MappedFile::is_cached() const {
-  constexpr std::size_t kPage = 4096;
+bool MappedFile::is_cached(std::string_view part) const {
+  const auto middle = static_cast<std::uint64_t>(part.data() - data_) + part.size() / 2;
   unsigned char in_memory = 1;
-  char* middle = const_cast<char*>(data_) + size_ / 2 / kPage * kPage;
-  return ::mincore(middle, 1, &in_memory) != 0 || (in_memory & 1U) != 0;
+  return ::mincore(page_of(middle), 1, &in_memory) != 0 || (in_memory & 1U) != 0;
+}
+
+void MappedFile::read_ahead(std::uint64_t begin, std::uint64_t length) const {
+  if (begin >= size_) return;
+  char* page = page_of(begin);
+  ::madvise(page, static_cast<std::size_t>(data_ + begin - page) + std::min(length, size_ - begin),
+            MADV_WILLNEED);
+}
+
+char* MappedFile::page_of(std::uint64_t at) const {
+  constexpr std::uint64_t kPage = 4096;
+  return const_cast<char*>(data_) + at / kPage * kPage;
 }
 
 std::optional<ImageView8> find_tiff_pixels(std::string_view bytes, std::uint64_t directory) {
@@ -198,7 +209,7 @@ std::optional<Picture> map_picture(const std::filesystem::path& path, Channel ch
   if (!file) return std::nullopt;
   const auto pixels = find_plain_pixels(file->bytes());
   if (!pixels) return std::nullopt;
-  const bool cached = file->is_cached();
+  const bool cached = file->is_cached(file->bytes());
   return Picture(*pixels, std::move(file), cached);
 }
 

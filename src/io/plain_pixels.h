@@ -25,11 +25,14 @@ class MappedFile {
   MappedFile& operator=(const MappedFile&) = delete;
 
   std::string_view bytes() const { return {data_, size_}; }
-  /// Whether the middle of the file is in memory already.
-  bool is_cached() const;
+  /// Whether the middle of these bytes of the file is in memory already.
+  bool is_cached(std::string_view part) const;
+  /// Asks the system to read bytes of the file soon, and does not wait; what lies beyond its end is nothing.
+  void read_ahead(std::uint64_t begin, std::uint64_t length) const;
 
  private:
   MappedFile(const char* data, std::size_t size) : data_(data), size_(size) {}
+  char* page_of(std::uint64_t at) const;
   const char* data_;
   std::size_t size_;
 };

@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "io/choose_channel.h"
 #include "io/decode_picture.h"
+#include "io/frames_ahead.h"
 #include "io/plain_pixels.h"
 #include "io/tiff_page_cut.h"
 
@@ -68,7 +69,15 @@ class TiffPages : public FrameSource {
         mapped_ && !is_excess(channel_)
             ? find_tiff_pixels(mapped_->bytes(), layout_.pages[static_cast<std::size_t>(index)])
             : std::nullopt;
-    return pixels ? Picture(*pixels, mapped_) : Picture(read(index));
+    if (!pixels) return read(index);
+    const std::string_view bytes(
+        reinterpret_cast<const char*>(pixels->data),
+        static_cast<std::size_t>(pixels->width) * static_cast<std::size_t>(pixels->height));
+    const bool cached = mapped_->is_cached(bytes);
+    const FramesAhead::Range next = ahead_.after(index, cached);
+    for (std::int64_t k = next.begin; k < std::min(size(), next.end); ++k)
+      mapped_->read_ahead(layout_.pages[static_cast<std::size_t>(k)], bytes.size());
+    return {*pixels, mapped_, cached};
   }
 
  private:
@@ -89,6 +98,7 @@ class TiffPages : public FrameSource {
   TiffLayout layout_;
   std::shared_ptr<const MappedFile> mapped_ = MappedFile::open(path_);
   Channel channel_ = Channel::kGray;
+  mutable FramesAhead ahead_;
 };
 
 }  // namespace
