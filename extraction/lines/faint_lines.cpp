@@ -14,6 +14,8 @@ namespace {
 /// Of the mean height and of the mean brighter side of a crowd of edges, and how long they are together
 /// against the lines to be a crowd.
 constexpr double kOverEdges = 1.2, kOverBrightSides = 1.15, kManyEdges = 0.25;
+/// The same share: a picture with as many edges shows lit things, and is not drawn.
+constexpr double kSomeEdges = 0.05;
 /// Times the least length: longer and more even lines are not made of edges by chance.
 constexpr double kLongAndEven = 2.5;
 /// Of the least length: evidence that a line needs, with and without the laser's colour.
@@ -83,15 +85,17 @@ struct Judge {
   double height_of_edges = 0, level_of_edges = 0;
 
   bool is_no_edge(const DerivativeKernels& kernels, const LineFacts& line) const;
-  bool is_shading(const LineFacts& line) const;
+  bool is_shading(const LineFacts& line, bool goes_on) const;
   bool is_visible(const DerivativeKernels& kernels, const LineFacts& line) const;
   bool is_bright_enough(const DerivativeKernels& kernels, const LineFacts& line, bool goes_on) const;
 };
 
-/// Light has a round top wherever the camera does not clip it, even far out of focus (flatness 0.89). A bar
-/// with a flat one between edges is printed, or a thing in other light.
+constexpr double kWide = 12;  // px
+
+/// Light has a round top wherever the camera does not clip it, even far out of focus: a lens' disc of blur
+/// gives a half ellipse (flatness 0.87). A bar with a flat one is printed, or a thing in other light.
 bool is_flat_bar(const LineFacts& line, double range_end) {
-  constexpr double kFlattest = 0.9, kClipped = 0.25;
+  constexpr double kFlattest = 0.88, kClipped = 0.25;
   return line.flatness > kFlattest && line.clipped_share < kClipped && line.level < range_end;
 }
 
@@ -103,11 +107,14 @@ bool Judge::is_no_edge(const DerivativeKernels& kernels, const LineFacts& line) 
 }
 
 /// Where no colour tells the laser: what is broader than this picture's lines and falls off unevenly is a
-/// thing in other light. Light out of focus is broad, but even.
-bool Judge::is_shading(const LineFacts& line) const {
-  constexpr double kBroader = 1.5;
-  return rule.width_slack > 1 && !line.colour_known && line.flanks < kEvenFlanks &&
-         line.width > kBroader * reference.width && line.clipped_share < kMostlyClipped;
+/// thing in other light; where nobody says that there is a line, also what is broad. Light out of focus is
+/// broad, but even; a line that goes on may be uneven in its glow.
+bool Judge::is_shading(const LineFacts& line, bool goes_on) const {
+  constexpr double kBroader = 1.5, kMostOdd = 0.3;
+  if (rule.width_slack <= 1 || line.colour_known || line.clipped_share >= kMostlyClipped) return false;
+  const bool wide = rule.extent > 0 && line.width > kWide;
+  if (line.flanks < kEvenFlanks) return wide || line.width > kBroader * reference.width;
+  return wide && line.odd_share > kMostOdd && !goes_on;
 }
 
 bool Judge::is_visible(const DerivativeKernels& kernels, const LineFacts& line) const {
@@ -120,7 +127,7 @@ bool Judge::is_visible(const DerivativeKernels& kernels, const LineFacts& line) 
 /// Brightness against the strong lines: weak lines have to be regular and as wide as the strong ones.
 /// `goes_on`: the line begins where one ends that is bright enough.
 bool Judge::is_bright_enough(const DerivativeKernels& kernels, const LineFacts& line, bool goes_on) const {
-  if (is_shading(line)) return false;
+  if (is_shading(line, goes_on)) return false;
   const double min_length = (goes_on ? kGoingOn : 1.0) * options.min_length;
   // What the camera clips in the laser's colour is as bright as a line can be, whatever glows beside it.
   const bool clipped_light = line.colour_known && line.clipped_share > kMostlyClipped;
@@ -238,13 +245,13 @@ double light_of(const LineFacts& line) {
 }
 
 /// Whether the kept lines are what the picture shows, and not the strongest of the things in it: the more
-/// speaks for other things, the more has to speak for the lines.
-bool shows_laser(std::span<const FilteredLines> groups, const EdgeCrowd& edges, double extent) {
+/// speaks for other things, the more has to speak for the lines. `bars`: what speaks for dropped flat bars.
+bool shows_laser(std::span<const FilteredLines> groups, const EdgeCrowd& edges, double bars, double extent) {
   // Grey levels that a line as long as width + height adds, where as much speaks for other things.
   constexpr double kEvident = 2.4;
   constexpr double kClipped = 0.2;  // of the light: what outshines the picture's range is no thing in it
   // An edge's height is its one drop, a line's intensity the mean of its two.
-  double kept = 0, clipped = 0, others = edges.length * std::min(0.5 * edges.height(), kEnoughLight);
+  double kept = 0, clipped = 0, others = bars + edges.length * std::min(0.5 * edges.height(), kEnoughLight);
   for (const FilteredLines& group : groups)
     for (const LineFacts& line : *group.facts) {
       const double light = light_of(line);
@@ -261,22 +268,28 @@ double length_of(std::span<const FilteredLines> groups) {
   return length;
 }
 
-/// A narrow bar may be a drawn line, unless edges tell that things are lit.
-void drop_flat_bars(std::span<const FilteredLines> groups, bool full_of_edges, double range_end) {
-  constexpr double kWide = 12;  // px
+/// A narrow bar may be a drawn line, unless edges tell that things are lit. Returns what speaks for the
+/// dropped ones.
+double drop_flat_bars(std::span<const FilteredLines> groups, bool has_edges, double range_end) {
+  double light = 0;
   for (const FilteredLines& group : groups) {
-    for (LineFacts& line : *group.facts)
-      line.kept = !is_flat_bar(line, range_end) || (!full_of_edges && line.width < kWide);
+    for (LineFacts& line : *group.facts) {
+      line.kept = !is_flat_bar(line, range_end) || (!has_edges && line.width < kWide);
+      if (!line.kept) light += light_of(line);
+    }
     drop_lines(*group.lines, *group.facts);
   }
+  return light;
 }
 
 }  // namespace
 
 void drop_faint_lines(std::span<const FilteredLines> groups, const LineFilterOptions& options,
                       const FaintLineRule& rule, const EdgeCrowd& edges) {
-  const bool full_of_edges = rule.width_slack > 1 && edges.length > kManyEdges * length_of(groups);
-  if (rule.width_slack > 1) drop_flat_bars(groups, full_of_edges, rule.range_end);
+  const double length = length_of(groups);
+  const bool full_of_edges = rule.width_slack > 1 && edges.length > kManyEdges * length;
+  double bars = 0;
+  if (rule.width_slack > 1) bars = drop_flat_bars(groups, edges.length > kSomeEdges * length, rule.range_end);
   Judge judge{options, rule, strong_stripe(groups, options)};
   judge.reference.intensity = std::max(judge.reference.intensity, rule.least_height);
   if (full_of_edges) {
@@ -289,7 +302,7 @@ void drop_faint_lines(std::span<const FilteredLines> groups, const LineFilterOpt
                   judge.is_bright_enough(*group.kernels, line, false);
   while (rule.width_slack > 1 && keep_continuations(groups, judge)) {
   }
-  if (rule.extent > 0 && !shows_laser(groups, edges, rule.extent))
+  if (rule.extent > 0 && !shows_laser(groups, edges, bars, rule.extent))
     for (const FilteredLines& group : groups)
       for (LineFacts& line : *group.facts) line.kept = false;
   for (const FilteredLines& group : groups) drop_lines(*group.lines, *group.facts);

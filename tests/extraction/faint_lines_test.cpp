@@ -99,6 +99,11 @@ TEST(FaintLines, ABarWithAFlatTopBelowTheEndOfTheRangeIsNoLight) {
   LineFacts bar{.length = 200, .width = 7, .intensity = 140, .level = 160, .flatness = 0.95, .colour = {}};
   EXPECT_FALSE(stays(bar, kManyEdges));
   EXPECT_TRUE(stays(bar, {}));  // it may be drawn
+  constexpr EdgeCrowd kSomeEdges{30, 30 * 110, 30 * 130};
+  EXPECT_FALSE(stays(bar, kSomeEdges));
+  LineFacts round = bar;
+  round.flatness = 0.87;  // a lens' disc of blur
+  EXPECT_TRUE(stays(round, kSomeEdges));
   bar.width = 14;
   EXPECT_FALSE(stays(bar, {}));
   bar.clipped_share = 1;
@@ -112,6 +117,16 @@ TEST(FaintLines, BroaderAndUnevenIsAThingInOtherLight) {
   shading.width = 25;
   shading.flanks = 0.6;
   EXPECT_EQ(how_many_stay({line, shading}, {}), 1U);
+  // The only thing in its picture; not where somebody says that there is a line.
+  constexpr double kExtent = 1100;
+  EXPECT_EQ(how_many_stay({shading}, {}, kExtent), 0U);
+  EXPECT_TRUE(stays(shading, {}));
+  LineFacts uneven_in_places = shading, narrow = shading;
+  uneven_in_places.flanks = narrow.flanks = 0.95;
+  uneven_in_places.odd_share = narrow.odd_share = 0.4;
+  narrow.width = 8;
+  EXPECT_EQ(how_many_stay({uneven_in_places}, {}, kExtent), 0U);
+  EXPECT_EQ(how_many_stay({narrow}, {}, kExtent), 1U);
   // Not a line out of focus, a glowing one as wide as the others, bloom, or what has the laser's colour.
   LineFacts out_of_focus = shading, glowing = shading, bloom = shading, coloured = shading;
   out_of_focus.flanks = 0.9;
@@ -128,8 +143,13 @@ TEST(FaintLines, TheStrongestOfAPicturesThingsIsNoLaser) {
   const LineFacts thing{.length = 60, .width = 6, .intensity = 40, .level = 200, .flanks = 0.9, .colour = {}};
   const EdgeCrowd edges{100, 100 * 80, 100 * 120};
   EXPECT_EQ(how_many_stay({thing}, edges, kExtent), 0U);
-  EXPECT_EQ(how_many_stay({thing}, {}, kExtent), 1U);  // nothing else is there: a wire in the dark
-  EXPECT_EQ(how_many_stay({thing}, edges, 0), 1U);     // somebody says that there is a line
+  LineFacts bar = thing;
+  bar.length = 200;
+  bar.flatness = 0.95;
+  bar.width = 14;
+  EXPECT_EQ(how_many_stay({thing, bar}, {}, kExtent), 0U);  // what was dropped speaks for things
+  EXPECT_EQ(how_many_stay({thing}, {}, kExtent), 1U);       // nothing else is there: a wire in the dark
+  EXPECT_EQ(how_many_stay({thing}, edges, 0), 1U);          // somebody says that there is a line
   LineFacts line = thing, clipped = thing;
   line.length = 300;
   clipped.clipped_share = 0.5;
