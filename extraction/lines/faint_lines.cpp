@@ -244,21 +244,32 @@ double light_of(const LineFacts& line) {
   return line.even_length() * std::clamp(light, 0.0, kEnoughLight);
 }
 
-/// Whether the kept lines are what the picture shows, and not the strongest of the things in it: the more
-/// speaks for other things, the more has to speak for the lines. `bars`: what speaks for dropped flat bars.
-bool shows_laser(std::span<const FilteredLines> groups, const EdgeCrowd& edges, double bars, double extent) {
+/// How long and even a line is, in stripe widths.
+double even_widths(const DerivativeKernels& kernels, const LineFacts& line) {
+  return line.even_length() / std::max(line.width, full_width_of(kernels.sigma));
+}
+
+/// Whether the kept lines are what the picture shows, and not the strongest of the things in it, or the
+/// longest crumbs of a texture: the more speaks for other things, the more has to speak for the lines, and
+/// one of them has to be `least_widths` long and even. `bars`: what speaks for dropped flat bars.
+bool shows_laser(std::span<const FilteredLines> groups, const EdgeCrowd& edges, double bars, double extent,
+                 double least_widths) {
   // Grey levels that a line as long as width + height adds, where as much speaks for other things.
   constexpr double kEvident = 2.4;
   constexpr double kClipped = 0.2;  // of the light: what outshines the picture's range is no thing in it
   // An edge's height is its one drop, a line's intensity the mean of its two.
-  double kept = 0, clipped = 0, others = bars + edges.length * std::min(0.5 * edges.height(), kEnoughLight);
+  double kept = 0, clipped = 0, others = bars + edges.length * std::min(0.5 * edges.height(), kEnoughLight),
+         longest = 0;
   for (const FilteredLines& group : groups)
     for (const LineFacts& line : *group.facts) {
       const double light = light_of(line);
       (line.kept ? kept : others) += light;
-      if (line.kept) clipped += line.clipped_share * light;
+      if (!line.kept) continue;
+      clipped += line.clipped_share * light;
+      longest = std::max(longest, even_widths(*group.kernels, line));
     }
-  return kept * kept >= kEvident * extent * others || clipped >= kClipped * kept;
+  if (others == 0 || clipped >= kClipped * kept) return true;
+  return longest >= least_widths && kept * kept >= kEvident * extent * others;
 }
 
 double length_of(std::span<const FilteredLines> groups) {
@@ -302,7 +313,7 @@ void drop_faint_lines(std::span<const FilteredLines> groups, const LineFilterOpt
                   judge.is_bright_enough(*group.kernels, line, false);
   while (rule.width_slack > 1 && keep_continuations(groups, judge)) {
   }
-  if (rule.extent > 0 && !shows_laser(groups, edges, bars, rule.extent))
+  if (rule.extent > 0 && !shows_laser(groups, edges, bars, rule.extent, options.min_length))
     for (const FilteredLines& group : groups)
       for (LineFacts& line : *group.facts) line.kept = false;
   for (const FilteredLines& group : groups) drop_lines(*group.lines, *group.facts);

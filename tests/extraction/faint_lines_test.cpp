@@ -137,6 +137,27 @@ TEST(FaintLines, BroaderAndUnevenIsAThingInOtherLight) {
     EXPECT_EQ(how_many_stay({line, light}, {}), 2U);
 }
 
+TEST(FaintLines, TheLongestCrumbsOfATextureAreNoLaser) {
+  constexpr double kExtent = 1100;
+  const LineFacts crumb{.length = 60,
+                        .width = 7,
+                        .intensity = 60,
+                        .level = 120,
+                        .odd_share = 0.3,
+                        .flanks = 0.75,
+                        .colour = {}};
+  LineFacts faint = crumb;
+  faint.intensity = 3;  // dropped
+  std::vector<LineFacts> crumbs(6, crumb);
+  EXPECT_EQ(how_many_stay(crumbs, {}, kExtent), 6U);  // nothing else is there
+  crumbs.push_back(faint);
+  EXPECT_EQ(how_many_stay(crumbs, {}, kExtent), 0U);
+  crumbs[2].length = 80;  // 6 widths even
+  EXPECT_EQ(how_many_stay(crumbs, {}, kExtent), 6U);
+  crumbs[2] = crumb;
+  EXPECT_EQ(how_many_stay(crumbs, {}, 0), 6U);  // somebody says that there is a line
+}
+
 TEST(FaintLines, TheStrongestOfAPicturesThingsIsNoLaser) {
   constexpr double kExtent = 1100;
   // 60 px of 40 grey levels, in a picture with 100 px of edges twice as high.
