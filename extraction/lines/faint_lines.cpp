@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "extraction/kernels/width_rule.h"
+#include "extraction/lines/laser_evidence.h"
 
 namespace lightstripe {
 namespace {
@@ -234,44 +235,6 @@ bool keep_continuations(std::span<const FilteredLines> groups, const Judge& judg
   return found;
 }
 
-/// Grey levels; what is brighter is no more a line.
-constexpr double kEnoughLight = 60;
-
-/// What speaks for a line in a whole picture, px times grey levels: how long and even it is, times the light
-/// that it adds in the laser's colour.
-double light_of(const LineFacts& line) {
-  const double light = line.colour.known ? line.colour.rise : line.intensity;
-  return line.even_length() * std::clamp(light, 0.0, kEnoughLight);
-}
-
-/// How long and even a line is, in stripe widths.
-double even_widths(const DerivativeKernels& kernels, const LineFacts& line) {
-  return line.even_length() / std::max(line.width, full_width_of(kernels.sigma));
-}
-
-/// Whether the kept lines are what the picture shows, and not the strongest of the things in it, or the
-/// longest crumbs of a texture: the more speaks for other things, the more has to speak for the lines, and
-/// one of them has to be `least_widths` long and even. `bars`: what speaks for dropped flat bars.
-bool shows_laser(std::span<const FilteredLines> groups, const EdgeCrowd& edges, double bars, double extent,
-                 double least_widths) {
-  // Grey levels that a line as long as width + height adds, where as much speaks for other things.
-  constexpr double kEvident = 2.4;
-  constexpr double kClipped = 0.2;  // of the light: what outshines the picture's range is no thing in it
-  // An edge's height is its one drop, a line's intensity the mean of its two.
-  double kept = 0, clipped = 0, others = bars + edges.length * std::min(0.5 * edges.height(), kEnoughLight),
-         longest = 0;
-  for (const FilteredLines& group : groups)
-    for (const LineFacts& line : *group.facts) {
-      const double light = light_of(line);
-      (line.kept ? kept : others) += light;
-      if (!line.kept) continue;
-      clipped += line.clipped_share * light;
-      longest = std::max(longest, even_widths(*group.kernels, line));
-    }
-  if (others == 0 || clipped >= kClipped * kept) return true;
-  return longest >= least_widths && kept * kept >= kEvident * extent * others;
-}
-
 double length_of(std::span<const FilteredLines> groups) {
   double length = 0;
   for (const FilteredLines& group : groups)
@@ -286,7 +249,7 @@ double drop_flat_bars(std::span<const FilteredLines> groups, bool has_edges, dou
   for (const FilteredLines& group : groups) {
     for (LineFacts& line : *group.facts) {
       line.kept = !is_flat_bar(line, range_end) || (!has_edges && line.width < kWide);
-      if (!line.kept) light += light_of(line);
+      if (!line.kept) light += light_of_line(line);
     }
     drop_lines(*group.lines, *group.facts);
   }

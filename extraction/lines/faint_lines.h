@@ -14,13 +14,6 @@
 
 namespace lightstripe {
 
-/// Lines of one scale.
-struct FilteredLines {
-  const DerivativeKernels* kernels = nullptr;
-  LineSet* lines = nullptr;
-  std::vector<LineFacts>* facts = nullptr;
-};
-
 /// What a line needs besides its strength in proportion to the others.
 struct FaintLineRule {
   double noise = 0;         ///< grey levels, of the image

@@ -54,6 +54,13 @@ struct EdgeCrowd {
   double level() const { return length > 0 ? weighted_level / length : 0.0; }
 };
 
+/// Lines of one scale.
+struct FilteredLines {
+  const DerivativeKernels* kernels = nullptr;
+  LineSet* lines = nullptr;
+  std::vector<LineFacts>* facts = nullptr;
+};
+
 /// Scratch memory.
 struct LineFilterWorkspace {
   LineMeasures measure;
