@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "io/atomic_file.h"
 #include "io/frame_numbers.h"
 #include "io/frames_ahead.h"
 #include "io/live_source.h"
@@ -171,7 +172,9 @@ std::string files_of_frames(const std::string& frames) {
 
 std::unique_ptr<FrameSource> open_raw_frames(const fs::path& base, const std::string& frames) {
   const RawLayout layout = layout_of(parse_source(frames));
-  return std::make_unique<RawFrames>(list_file_names(base, files_of_frames(frames)), layout);
+  FileNames files = list_file_names(base, files_of_frames(frames));
+  refuse_special_file(files.folder / files.names.front());
+  return std::make_unique<RawFrames>(std::move(files), layout);
 }
 
 }  // namespace lightstripe

@@ -3,6 +3,7 @@
 #include "io/raw_frames.h"
 
 #include <gmock/gmock.h>
+#include <sys/stat.h>
 
 #include "io/live_source.h"
 #include "tests/io/temp_folder.h"
@@ -66,6 +67,13 @@ TEST(RawFrames, WhatIsLeftOfAFrameIsTold) {
   EXPECT_EQ(std::get<Image8>(frames->read(1))(0, 0), 20);
   EXPECT_THAT(error_of([&] { frames->look(2); }), HasSubstr("a.raw#2: has 4 bytes, a frame of 4 x 3 has 12"));
   EXPECT_THAT(error_of([&] { frames->read(3); }), HasSubstr("b.raw: is empty or cannot be read"));
+}
+
+TEST(RawFrames, APipeIsRefused) {
+  const TempFolder folder;
+  ASSERT_EQ(::mkfifo((folder / "pipe.raw").c_str(), 0600), 0);
+  EXPECT_THAT(error_of([&] { open_frames(folder.path(), "raw:pipe.raw?width=4&height=3", {}); }),
+              HasSubstr("pipe.raw"));
 }
 
 TEST(RawFrames, OptionsAreChecked) {
