@@ -5,12 +5,9 @@
 #pragma once
 
 #include <span>
-#include <vector>
 
-#include "extraction/kernels/kernels.h"
 #include "extraction/lines/line_filter.h"
 #include "extraction/lines/line_filter_options.h"
-#include "extraction/lines/line_set.h"
 
 namespace lightstripe {
 

@@ -86,9 +86,7 @@ class RawFrames : public FrameSource {
     const std::string_view bytes = pixels_of(*file, index);
     const bool cached = file->is_cached(bytes);
     const FramesAhead::Range next = ahead_.after(index, cached);
-    if (!next.empty())
-      file->read_ahead(begin_of(place_of(index).second + next.begin - index),
-                       static_cast<std::uint64_t>(next.end - next.begin) * layout_.frame_bytes());
+    for (std::int64_t k = next.begin; k < std::min(size(), next.end); ++k) ask_for(k, *file, index);
     const auto* pixels = reinterpret_cast<const std::uint8_t*>(bytes.data());
     return {ImageView8{pixels, layout_.width, layout_.height, layout_.width}, std::move(file), cached};
   }
@@ -125,6 +123,15 @@ class RawFrames : public FrameSource {
     last_ = opened;
     last_file_ = file;
     return opened;
+  }
+
+  /// Asks for frame `k`, which lies in `file` as frame `index` does, or in a file of its own.
+  void ask_for(std::int64_t k, const MappedFile& file, std::int64_t index) const {
+    const auto [of, frame] = place_of(k);
+    if (of == place_of(index).first)
+      file.read_ahead(begin_of(frame), layout_.frame_bytes());
+    else if (one_a_file())
+      read_ahead(folder_ / names_[of]);
   }
 
   /// Of a frame in its file.
